@@ -1,0 +1,100 @@
+// The normative sampled form of a light basis (docs/format.md, "basis.bin").
+//
+// Directions are charted as in Wong et al. 1997, section 4.2: a stereographic square per hemisphere,
+//   upper: x = (tan(theta/2) cos(phi) + 1)/2,  y = (tan(theta/2) sin(phi) + 1)/2,
+// the lower one alike with theta replaced by pi - theta. (The paper mirrors phi; our y is up.)
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "illum/vector.h"
+
+namespace illum {
+
+/// Which directions the light may come from. Hemisphere: z >= 0 is charted; below the horizon the value
+/// at the equator goes linearly in theta to a constant at the south pole (the paper's section 5).
+enum class LightDomain { Hemisphere, Sphere };
+
+/// A point of the chart: square 0 is the upper hemisphere, 1 the lower; x, y in [0, 1].
+struct ChartPoint {
+  int square = 0;
+  double x = 0, y = 0;
+};
+ChartPoint chartFromDirection(Direction d);
+/// Inverse; points outside the disc continue the stereographic projection past the equator.
+Direction directionFromChart(ChartPoint p);
+
+/// `columns` scalar functions of direction as N x N vertex-centred samples a square plus a guard ring
+/// (so N+2 a side; sample (i, j) is at x = (i-1)/(N-1), y = (j-1)/(N-1)), interpolated by Catmull-Rom.
+class BasisTable {
+ public:
+  BasisTable() = default;
+  /// resolution N >= 4, columns >= 1.
+  BasisTable(LightDomain domain, int resolution, int columns);
+
+  LightDomain domain() const { return domain_; }
+  int resolution() const { return resolution_; }
+  int columns() const { return columns_; }
+  int squares() const { return domain_ == LightDomain::Sphere ? 2 : 1; }
+  int side() const { return resolution_ + 2; }
+
+  /// Fills every sample. `f` writes `columns` values for a direction; it is asked on and a little beyond
+  /// the equator too (guard ring, corners of the square).
+  void fill(const std::function<void(Direction, std::span<double>)>& f);
+
+  /// The columns' values for a light from `d`. `out` has columns() entries.
+  void evaluate(Direction d, std::span<float> out) const;
+
+  /// values[((square * columns + column) * side + row) * side + col]; row runs with y.
+  std::span<float> values() { return values_; }
+  std::span<const float> values() const { return values_; }
+  /// Hemisphere only: the constant at the south pole, one per column.
+  std::span<float> southPole() { return southPole_; }
+  std::span<const float> southPole() const { return southPole_; }
+
+  /// basis.bin's bytes. Rounds the table to what the file stores, so that *this* equals decode(encode()).
+  std::vector<std::byte> encode();
+  /// Untrusted input is safe. Throws Error naming `source`.
+  static BasisTable decode(std::span<const std::byte> bytes, const std::string& source);
+
+  friend bool operator==(const BasisTable&, const BasisTable&) = default;
+
+ private:
+  LightDomain domain_ = LightDomain::Hemisphere;
+  int resolution_ = 0, columns_ = 0;
+  std::vector<float> values_, southPole_;
+};
+
+/// How table columns become the basis colour(x) = g(m(w) + sum_k b_k(w) P_k(x)) of DESIGN's common form.
+struct BasisColour {
+  /// Separable: plane 3j+c has b = column j times colourMatrix column c; no mean.
+  /// Full: columns 3k..3k+2 are b_k's RGB for plane k, and the last three columns are the mean m.
+  enum class Kind { Separable, Full } kind = Kind::Separable;
+  /// Row-major 3x3, rgb = colourMatrix * (three planes' values). Separable only.
+  std::array<double, 9> colourMatrix{1, 0, 0, 0, 1, 0, 0, 0, 1};
+};
+
+/// The light basis of a group: b_k and m for K planes.
+class LightBasis {
+ public:
+  LightBasis() = default;
+  LightBasis(BasisTable table, BasisColour colour);
+
+  int planes() const;
+  const BasisTable& table() const { return table_; }
+  const BasisColour& colour() const { return colour_; }
+
+  /// out[3k+c] = b_k(d)'s channel c for k < planes(); out[3*planes()+c] = m(d)'s channel c.
+  void evaluate(Direction d, std::span<float> out) const;
+  std::size_t evaluateSize() const { return 3 * static_cast<std::size_t>(planes()) + 3; }
+
+ private:
+  BasisTable table_;
+  BasisColour colour_;
+};
+
+}  // namespace illum

@@ -1,0 +1,44 @@
+// Writing an object: OUT.partial/ tile by tile, then packed and renamed (docs/format.md, "Writing").
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <span>
+#include <string>
+
+namespace illum {
+
+enum class ObjectForm { Archive, Folder };
+
+/// Collects the entries of one object in `OUT.partial/` and turns them into OUT at the end.
+/// Every entry is written atomically; a killed writer leaves a partial folder that a later one with the
+/// same `fingerprint` can resume. Entry names are checked. Thread safe.
+class ObjectWriter {
+ public:
+  /// `fingerprint`: text that identifies inputs and settings; kept in the partial folder.
+  /// If the partial folder exists: with `resume` and an equal fingerprint its entries are kept; with
+  /// `resume` and another fingerprint, Error; without `resume` it is emptied. Throws Error
+  /// (Fault::Input) if `out` exists and `force` is false; Fault::Machine if the folder cannot be written.
+  ObjectWriter(std::filesystem::path out, ObjectForm form, std::string fingerprint, bool resume,
+               bool force);
+  /// Removes the partial folder unless finish() succeeded or keepPartial() was called.
+  ~ObjectWriter();
+  ObjectWriter(const ObjectWriter&) = delete;
+  ObjectWriter& operator=(const ObjectWriter&) = delete;
+
+  bool has(const std::string& entry) const;  ///< finished already (by an earlier, killed run)
+  void add(const std::string& entry, std::span<const std::byte> bytes);
+  /// For signals and machine faults: what is done stays for --resume.
+  void keepPartial();
+  /// Where scratch files may lie; removed at finish.
+  std::filesystem::path scratchFolder() const;
+  /// Packs in canonical order, flushes, renames. Returns the object's bytes.
+  std::uint64_t finish();
+
+ private:
+  std::filesystem::path out_, partial_;
+  ObjectForm form_;
+  bool force_, keep_ = false, finished_ = false;
+};
+
+}  // namespace illum

@@ -1,0 +1,97 @@
+// object.json: everything about an object but its pixels (docs/format.md, "object.json").
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "codec/tile.h"
+#include "illum/basis_table.h"
+#include "illum/light_file.h"
+#include "illum/picture.h"
+
+namespace illum {
+
+/// g of the common form.
+enum class Response {
+  Linear,   ///< planes hold linear light
+  Display,  ///< planes hold sRGB-encoded values: clamp to [0, 1], then to linear
+  Cone,     ///< max(0, .), Belhumeur and Kriegman 1998
+};
+
+/// How a code becomes a plane's value.
+enum class Curve {
+  Linear,      ///< value = offset_k + step * code
+  SignedSqrt,  ///< s = offset_k + step * code; value = sign(s) s^2
+};
+
+/// A rigid transform of group coordinates to object coordinates: row-major 3x3 rotation, translation.
+struct RigidTransform {
+  std::array<double, 9> rotation{1, 0, 0, 0, 1, 0, 0, 0, 1};
+  Vector3 translation;
+  friend bool operator==(const RigidTransform&, const RigidTransform&) = default;
+};
+
+struct BasisEntry {
+  std::string name;         ///< "sh", "hsh", "dct", "learned": for people; readers need only the table
+  int coefficients = 0;     ///< per channel (separable), or scalar planes (full)
+  BasisColour colour;
+  std::uint64_t tableOffset = 0, tableBytes = 0;  ///< where in basis.bin
+  /// Named coefficients C = mixing * planes (row-major, coefficients x coefficients); empty if none.
+  std::vector<double> mixing;
+};
+
+struct GroupEntry {
+  std::string name;
+  int basis = 0;  ///< index into Manifest::bases
+  int views = 1;
+  RigidTransform objectFromGroup;
+};
+
+/// How planes are coded. One for the whole object.
+struct CodingEntry {
+  Coding coding = Coding::Avif;
+  int bits = 8;
+  Curve curve = Curve::Linear;
+  double step = 1;              ///< common to all planes
+  std::vector<double> offsets;  ///< one per plane
+  int quality = 0;              ///< what the writer was asked for; informative
+};
+
+struct Manifest {
+  int versionMajor = 1, versionMinor = 0;
+  std::string geometry = "photograph";  ///< "photograph" in version 1.0
+  Size size;                            ///< of a view, level 0
+  int tile = 512;                       ///< side of a full tile
+  int levels = 1;                       ///< level l has size ceil(size / 2^l)
+  LightDomain domain = LightDomain::Hemisphere;
+  Response response = Response::Display;
+  std::vector<BasisEntry> bases;
+  std::vector<GroupEntry> groups;
+  CodingEntry coding;
+  bool mask = false;
+  std::vector<LightFileEntry> lights;  ///< that the object was made from, provenance
+  std::vector<int> heldOut;            ///< indices into `lights` that were left out of the fit
+  std::string generator;               ///< program and version
+  std::vector<std::pair<std::string, std::string>> provenance;  ///< settings and figures, for people
+
+  int planes() const { return static_cast<int>(coding.offsets.size()); }
+  Size sizeAt(int level) const;
+  int tilesAcross(int level) const;
+  int tilesDown(int level) const;
+  Rectangle tileRectangle(int level, int x, int y) const;
+};
+
+std::string textOf(const Manifest& manifest);
+/// Untrusted input is safe: every number is checked against the limits in docs/format.md before anything
+/// is sized by it. Unknown fields are skipped; a newer major version is refused. Throws Error naming
+/// `source` and the field.
+Manifest manifestFromText(std::string_view json, const std::string& source);
+
+/// "planes/<group>/<level>/<x>_<y>.avif"; "mask/<group>/<level>/<x>_<y>.png"
+std::string planeTileName(const Manifest&, int group, int level, int x, int y);
+std::string maskTileName(const Manifest&, int group, int level, int x, int y);
+
+}  // namespace illum
