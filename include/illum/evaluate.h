@@ -1,0 +1,58 @@
+// Judging an object against the photographs (docs/quality.md says how the figures are defined).
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "illum/capture.h"
+#include "illum/object.h"
+#include "illum/progress.h"
+
+namespace illum {
+
+/// Error measures of one picture against the truth, over 8-bit sRGB at exposure 0 unless said otherwise.
+struct PictureError {
+  double psnrDecibels = 0;  ///< over all pixels and channels, peak 255; 99 for identical pictures
+  double ssim = 0;          ///< Wang et al. 2004 on luma, Gaussian window 11x11, sigma 1.5; in [-1, 1]
+  double rms = 0;           ///< in units of the peak (0 … 1)
+};
+
+struct LightResult {
+  std::string name;
+  Direction direction;
+  bool heldOut = false;
+  PictureError all;
+  PictureError masked;         ///< pixels with coverage > 1/2 only; meaningful if Evaluation::hasMask
+  double linearRms = 0;        ///< unclamped linear light
+  double linearPsnrDecibels = 0;  ///< peak 1
+};
+
+/// Means over lights (the mean of each light's figure, as in the literature).
+struct ErrorSummary {
+  int lights = 0;
+  PictureError all, masked;
+  double linearRms = 0, linearPsnrDecibels = 0;
+};
+
+struct Evaluation {
+  std::vector<LightResult> lights;
+  ErrorSummary used, heldOut;  ///< of the lights the object was fitted to, and of those left out
+  bool hasMask = false;
+  std::uint64_t bytes = 0;  ///< of the whole file
+  double bitsPerPixel = 0;
+};
+
+PictureError comparePictures(const BytePicture& picture, const BytePicture& truth);
+
+/// Relights `object` under every light of `truth` and compares. Throws Error if the sizes differ.
+Evaluation evaluate(const Object& object, const Capture& truth, Progress& progress);
+
+/// Stable machine-readable form (docs/guide/evaluate.md), and a table for people.
+std::string jsonOf(const Evaluation& evaluation);
+std::string tableOf(const Evaluation& evaluation);
+
+/// A self-contained HTML page: summary, table, the dome of light directions coloured by error, worst and
+/// best lights side by side with the photograph and the error (times 8).
+std::string htmlReport(const Object& object, const Capture& truth, const Evaluation& evaluation);
+
+}  // namespace illum
