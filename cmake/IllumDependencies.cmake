@@ -14,6 +14,8 @@ pkg_check_modules(AVIF REQUIRED IMPORTED_TARGET libavif)
 
 if(ILLUM_AUTHOR)
   find_package(OpenImageIO CONFIG REQUIRED)
+  # Debian's package names OpenCV's headers, which it neither needs here nor brings along.
+  set_property(TARGET OpenImageIO::OpenImageIO PROPERTY INTERFACE_INCLUDE_DIRECTORIES "")
   find_package(Eigen3 CONFIG REQUIRED)
   find_package(CLI11 CONFIG REQUIRED)
   pkg_check_modules(LCMS2 REQUIRED IMPORTED_TARGET lcms2)
