@@ -56,7 +56,10 @@ struct CodingEntry {
   int bits = 8;
   Curve curve = Curve::Linear;
   double step = 1;              ///< common to all planes
-  std::vector<double> offsets;  ///< one per plane
+  std::vector<double> offsets;  ///< one per stored plane
+  /// Which basis function each stored plane carries. Several may carry the same one: their values add.
+  /// So a plane whose range exceeds what the bits hold at the common step is stored as two or more.
+  std::vector<int> functions;
   int quality = 0;              ///< what the writer was asked for; informative
 };
 
