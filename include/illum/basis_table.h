@@ -29,6 +29,9 @@ ChartPoint chartFromDirection(Direction d);
 /// Inverse; points outside the disc continue the stereographic projection past the equator.
 Direction directionFromChart(ChartPoint p);
 
+/// Of a column's rms; with equal steps the true error stays just below it.
+inline constexpr double kDefaultStoredError = 2.5e-4;
+
 /// `columns` scalar functions of direction as N x N vertex-centred samples a square plus a guard ring
 /// (so N+2 a side; sample (i, j) is at x = (i-1)/(N-1), y = (j-1)/(N-1)), interpolated by Catmull-Rom.
 class BasisTable {
@@ -43,9 +46,15 @@ class BasisTable {
   int squares() const { return domain_ == LightDomain::Sphere ? 2 : 1; }
   int side() const { return resolution_ + 2; }
 
-  /// Fills every sample. `f` writes `columns` values for a direction; it is asked on and a little beyond
-  /// the equator too (guard ring, corners of the square).
+  /// Fills every sample that interpolation can reach (the others, in the square's corners, become 0) and
+  /// the south pole's constant (the mean over the equator). `f` writes `columns` values for a direction;
+  /// it is asked on and up to three grid steps beyond the equator too.
   void fill(const std::function<void(Direction, std::span<double>)>& f);
+  /// The same for functions that know how they continue past their own square's equator.
+  void fillChart(const std::function<void(ChartPoint, std::span<double>)>& f);
+  /// Sets the south pole's constants to the mean of the table's own values over the equator. fill() does
+  /// it; needed again after values() were written.
+  void setSouthPoleFromEquator();
 
   /// The columns' values for a light from `d`. `out` has columns() entries.
   void evaluate(Direction d, std::span<float> out) const;
@@ -57,17 +66,27 @@ class BasisTable {
   std::span<float> southPole() { return southPole_; }
   std::span<const float> southPole() const { return southPole_; }
 
+  /// What encode() may lose: the rms rounding error of column c is at most relative * (its rms over the
+  /// disc). Default kDefaultStoredError, -72 dB. Not part of the table's value.
+  void setStoredError(double relative);
+  /// The same in the columns' own units, one positive number per column: for bases whose columns do not
+  /// matter equally (give error of the picture / rms of the column's plane).
+  void setStoredErrors(std::vector<double> absolutePerColumn);
+
   /// basis.bin's bytes. Rounds the table to what the file stores, so that *this* equals decode(encode()).
   std::vector<std::byte> encode();
   /// Untrusted input is safe. Throws Error naming `source`.
   static BasisTable decode(std::span<const std::byte> bytes, const std::string& source);
 
-  friend bool operator==(const BasisTable&, const BasisTable&) = default;
+  /// Equal shape and samples, whatever error encode() may make.
+  friend bool operator==(const BasisTable& a, const BasisTable& b);
 
  private:
   LightDomain domain_ = LightDomain::Hemisphere;
   int resolution_ = 0, columns_ = 0;
   std::vector<float> values_, southPole_;
+  double storedError_ = kDefaultStoredError;
+  std::vector<double> storedErrors_;  // empty: storedError_ holds for all
 };
 
 /// How table columns become the basis colour(x) = g(m(w) + sum_k b_k(w) P_k(x)) of DESIGN's common form.
