@@ -11,13 +11,39 @@
 
 namespace illum {
 
-/// The whole file. Throws Error if it is missing, a folder, unreadable, or larger than `limitBytes`
-/// (checked before memory is allocated).
+/// The whole file, a pipe included. Throws Error if it is missing or a folder (Fault::Input),
+/// unreadable (Fault::Machine), or larger than `limitBytes` (Fault::Input; of an ordinary file
+/// before memory is allocated).
 std::vector<std::byte> readFile(const std::filesystem::path& file, std::uint64_t limitBytes);
 std::string readTextFile(const std::filesystem::path& file, std::uint64_t limitBytes);
 
-/// Replaces `file` by `bytes` atomically: a temporary beside it, fsync, rename, fsync of the folder.
-/// On failure (disk full, no permission) nothing of it remains and the old file stays.
+/// A file that comes to be all at once: written beside its target under another name, flushed to
+/// the disk, renamed. Until commit() has returned, the target stays as it was; without commit()
+/// nothing of the temporary remains. Every failure is an Error (Fault::Machine). The target may be
+/// missing or an ordinary file that its user may write, or a link to one; its permissions are kept.
+class AtomicFile {
+ public:
+  explicit AtomicFile(const std::filesystem::path& target);
+  AtomicFile(const AtomicFile&) = delete;
+  AtomicFile& operator=(const AtomicFile&) = delete;
+  ~AtomicFile();
+
+  /// For libraries that open files by name. They must close it before commit().
+  const std::filesystem::path& temporary() const { return temporary_; }
+  void write(std::span<const std::byte> bytes);
+  void commit();
+
+ private:
+  void createTemporary();
+  [[noreturn]] void fail(int errnoValue) const;
+
+  std::filesystem::path target_;     ///< as it was named, for messages
+  std::filesystem::path resolved_;   ///< links followed
+  std::filesystem::path temporary_;  ///< empty once there is nothing to remove
+  int descriptor_ = -1;
+};
+
+/// Replaces `file` by `bytes` atomically (AtomicFile).
 void writeFileAtomically(const std::filesystem::path& file, std::span<const std::byte> bytes);
 void writeFileAtomically(const std::filesystem::path& file, std::string_view text);
 

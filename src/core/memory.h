@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <string>
 #include <string_view>
 
@@ -15,5 +16,11 @@ std::string textFromBytes(std::uint64_t bytes);
 
 /// Physical memory, or the control group's limit where that is lower.
 std::uint64_t machineMemoryBytes();
+
+/// The lowest memory limit on the way from a process's control group up to the root of the
+/// hierarchy; UINT64_MAX if there is none. `mountPoint` is where control groups appear
+/// (/sys/fs/cgroup), `membership` the text of /proc/PID/cgroup; versions 1 and 2.
+std::uint64_t controlGroupLimitBytes(const std::filesystem::path& mountPoint,
+                                     std::string_view membership);
 
 }  // namespace illum

@@ -1,1 +1,61 @@
+#include "illum/vector.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "illum/error.h"
+
+namespace illum {
+
+double dot(Vector3 a, Vector3 b) {
+  return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+
+Vector3 cross(Vector3 a, Vector3 b) {
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+
+double length(Vector3 a) {
+  return std::hypot(a.x, a.y, a.z);
+}
+
+Direction Direction::fromVector(Vector3 v) {
+  if (!std::isfinite(v.x) || !std::isfinite(v.y) || !std::isfinite(v.z))
+    throw Error(
+        Fault::Input,
+        fmt::format("expected a direction of finite coordinates, found {} {} {}", v.x, v.y, v.z));
+  // Dividing by the largest coordinate first keeps squares clear of overflow and of denormals.
+  const double largest = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
+  if (largest == 0) throw Error(Fault::Input, "expected a direction, found the zero vector");
+  const Vector3 scaled{v.x / largest, v.y / largest, v.z / largest};
+  const double norm = length(scaled);
+  Direction direction;
+  direction.v_ = {scaled.x / norm, scaled.y / norm, scaled.z / norm};
+  return direction;
+}
+
+Direction Direction::fromAngles(double thetaRadians, double phiRadians) {
+  const double sinTheta = std::sin(thetaRadians);
+  return fromVector(
+      {sinTheta * std::cos(phiRadians), sinTheta * std::sin(phiRadians), std::cos(thetaRadians)});
+}
+
+double Direction::thetaRadians() const {
+  return std::atan2(std::hypot(v_.x, v_.y), v_.z);
+}
+
+double Direction::phiRadians() const {
+  if (v_.x == 0 && v_.y == 0) return 0;
+  // Adding zero turns -0 into +0, so that the result is never -pi.
+  return std::atan2(v_.y + 0.0, v_.x);
+}
+
+// W. Kahan, "How Futile are Mindless Assessments of Roundoff in Floating-Point Computation?", 2006,
+// section 12: acos(a . b) loses half the digits near 0 and pi; this form loses none.
+double angleRadians(Direction a, Direction b) {
+  return 2 * std::atan2(length(a.vector() - b.vector()), length(a.vector() + b.vector()));
+}
+
+}  // namespace illum
