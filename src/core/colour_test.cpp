@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <limits>
@@ -93,7 +94,7 @@ TEST(Colour, UnitBytesRoundToNearest) {
   for (int byte = 0; byte < 256; ++byte) {
     EXPECT_EQ(byteFromUnit(static_cast<float>(byte) / 255), byte);
     EXPECT_EQ(byteFromUnit((static_cast<float>(byte) + 0.499F) / 255), byte);
-    if (byte < 255) EXPECT_EQ(byteFromUnit((static_cast<float>(byte) + 0.501F) / 255), byte + 1);
+    EXPECT_EQ(byteFromUnit((static_cast<float>(byte) + 0.501F) / 255), std::min(byte + 1, 255));
   }
 }
 

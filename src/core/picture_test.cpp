@@ -82,7 +82,8 @@ TEST(DisplayBytes, AlphaBecomesStraightAndIsNotExposed) {
 TEST(DisplayBytes, NanIsBlackNotUndefined) {
   Picture linear({1, 1}, 4);
   for (float& sample : linear.samples()) sample = std::numeric_limits<float>::quiet_NaN();
-  for (const auto byte : displayBytes(linear).samples()) EXPECT_EQ(byte, 0);
+  const BytePicture bytes = displayBytes(linear);
+  for (const auto byte : bytes.samples()) EXPECT_EQ(byte, 0);
 }
 
 }  // namespace
