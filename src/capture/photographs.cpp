@@ -1,1 +1,1 @@
-
+// photographs.cpp

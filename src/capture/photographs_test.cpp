@@ -1,1 +1,1 @@
-
+// photographs_test.cpp

@@ -1,0 +1,1 @@
+// band_plan_test.cpp

@@ -1,0 +1,1 @@
+// jpeg_reader.cpp

@@ -1,0 +1,1 @@
+// light_file_search.cpp

@@ -1,0 +1,1 @@
+// oiio_reader.cpp

@@ -1,0 +1,1 @@
+// photograph_match_test.cpp

@@ -1,0 +1,1 @@
+// sample_rows_test.cpp

@@ -1,0 +1,1 @@
+// shared_stacks_test.cpp
