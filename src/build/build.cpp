@@ -1,1 +1,338 @@
+#include "illum/build.h"
 
+#include <fmt/format.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "build/pilot.h"
+#include "build/plane_row.h"
+#include "build/quantiser.h"
+#include "build/tile_writer.h"
+#include "core/memory.h"
+#include "encode/object_writer.h"
+#include "illum/error.h"
+#include "illum/picture_io.h"
+#include "illum/version.h"
+
+namespace illum {
+namespace {
+
+// Chosen from the curves in docs/quality.md and docs/performance.md.
+constexpr int kDefaultQuality = 75;
+constexpr int kDefaultSpeed = 6;
+constexpr int kPosterQuality = 85;
+
+BasisFamily familyFromName(const std::string& name) {
+  if (name == "learned") return BasisFamily::Learned;
+  if (name == "sh") return BasisFamily::SphericalHarmonics;
+  if (name == "hsh") return BasisFamily::HemisphericalHarmonics;
+  if (name == "dct") return BasisFamily::Cosine;
+  throw Error(Fault::Usage,
+              fmt::format("--basis: expected learned, sh, hsh or dct, found \"{}\"", name));
+}
+
+Response responseFor(const BuildOptions& options, Transfer transfer) {
+  if (!options.response) {
+    return transfer == Transfer::Display ? Response::Display : Response::Linear;
+  }
+  const bool display = *options.response == "display";
+  if (!display && *options.response != "linear") {
+    throw Error(Fault::Usage, fmt::format("--response: expected linear or display, found \"{}\"",
+                                          *options.response));
+  }
+  return display ? Response::Display : Response::Linear;
+}
+
+Curve curveFromName(const std::string& name) {
+  if (name == "linear") return Curve::Linear;
+  if (name == "signedSqrt") return Curve::SignedSqrt;
+  throw Error(Fault::Usage,
+              fmt::format("--curve: expected linear or signedSqrt, found \"{}\"", name));
+}
+
+// The samples in the domain in which the planes are fitted.
+class ResponseCapture final : public Capture {
+ public:
+  ResponseCapture(const Capture& inner, Transfer transfer) : inner_(inner), transfer_(transfer) {}
+  Size size() const override { return inner_.size(); }
+  Transfer transfer() const override { return transfer_; }
+  const std::vector<LightFileEntry>& lights() const override { return inner_.lights(); }
+  bool hasMask() const override { return inner_.hasMask(); }
+  void read(int group, const Rectangle& rectangle, std::span<const int> lights,
+            std::span<float> samples) const override {
+    inner_.read(group, rectangle, lights, samples);
+    if (transfer_ == inner_.transfer()) return;
+    if (transfer_ == Transfer::Linear) {
+      for (float& s : samples) s = linearFromDisplay(s);
+    } else {
+      for (float& s : samples) s = displayFromLinear(s);
+    }
+  }
+  void readMask(int group, const Rectangle& rectangle, std::span<float> coverage) const override {
+    inner_.readMask(group, rectangle, coverage);
+  }
+  int bandRows() const override { return inner_.bandRows(); }
+  std::uint64_t residentBytes() const override { return inner_.residentBytes(); }
+  std::string fingerprint() const override { return inner_.fingerprint(); }
+
+ private:
+  const Capture& inner_;
+  Transfer transfer_;
+};
+
+// Which lights are fitted and which are left out (--holdout K: lights K-1, 2K-1, …).
+struct LightChoice {
+  std::vector<int> used, heldOut;
+  std::vector<DirectionalLight> directions;  // of the used
+};
+
+LightChoice chooseLights(const Capture& capture, int holdout) {
+  LightChoice choice;
+  const auto& lights = capture.lights();
+  for (int i = 0; i < static_cast<int>(lights.size()); ++i) {
+    if (holdout > 0 && i % holdout == holdout - 1) {
+      choice.heldOut.push_back(i);
+    } else {
+      choice.used.push_back(i);
+      choice.directions.push_back(lights[static_cast<std::size_t>(i)].light);
+    }
+  }
+  if (choice.used.empty()) {
+    throw Error(Fault::Usage, fmt::format("--holdout {}: leaves none of the {} lights to fit",
+                                          holdout, lights.size()));
+  }
+  return choice;
+}
+
+void checkOptions(const BuildOptions& options) {
+  if (options.holdout < 0) {
+    throw Error(Fault::Usage,
+                fmt::format("--holdout: expected at least 1, found {}", options.holdout));
+  }
+  if (options.tile < 64 || options.tile > 1360 || options.tile % 8 != 0) {
+    throw Error(
+        Fault::Usage,
+        fmt::format("--tile: expected a multiple of 8 from 64 to 1360, found {}", options.tile));
+  }
+  if (options.quality < -1 || options.quality > 100) {
+    throw Error(Fault::Usage,
+                fmt::format("--quality: expected 0 to 100, found {}", options.quality));
+  }
+  if (options.bits && *options.bits != 8 && *options.bits != 10 && *options.bits != 12 &&
+      *options.bits != 16) {
+    throw Error(Fault::Usage,
+                fmt::format("--bits: expected 8, 10, 12 or 16, found {}", *options.bits));
+  }
+  const Coding coding = codingFromName(options.coding);
+  const int most = coding == Coding::Png ? 16 : coding == Coding::Avif ? 12 : 8;
+  if (options.bits && *options.bits > most) {
+    throw Error(Fault::Usage,
+                fmt::format("--bits {}: {} holds at most {}", *options.bits, options.coding, most));
+  }
+}
+
+// Everything of the options that changes a byte of the object.
+std::string fingerprintOf(const Capture& capture, const BuildOptions& o) {
+  const auto flag = [](const std::optional<bool>& f) { return f ? (*f ? "yes" : "no") : "chosen"; };
+  return fmt::format(
+      "illumigraph {}\nbasis {} {} {}\ncoding {} {} {} {} {}\nresponse {}\nholdout {}\n"
+      "weights {} extension {} regularizer {} projection {}\ntile {}\n{}",
+      kVersion, o.basis, o.coefficients, o.planes, o.coding, o.quality, o.speed, o.bits.value_or(0),
+      o.curve.value_or("chosen"), o.response.value_or("chosen"), o.holdout,
+      flag(o.solidAngleWeights), flag(o.extension),
+      o.regularizer ? fmt::format("{}", *o.regularizer) : "chosen", o.projection, o.tile,
+      capture.fingerprint());
+}
+
+FitOptions fitOptionsFrom(const BuildOptions& options) {
+  FitOptions fit;
+  fit.family = familyFromName(options.basis);
+  fit.coefficients = options.coefficients;
+  fit.planes = options.planes;
+  fit.solidAngleWeights = options.solidAngleWeights;
+  fit.extension = options.extension;
+  fit.regularizer = options.regularizer;
+  fit.projection = options.projection;
+  return fit;
+}
+
+int levelsFor(Size size, int tile) {
+  int levels = 1;
+  for (int side = std::max(size.width, size.height); side > tile; side = (side + 1) / 2) ++levels;
+  return levels;
+}
+
+LightDomain domainOf(const Fit& fit) {
+  return fit.basis.table().domain();
+}
+
+Manifest manifestFor(const Capture& capture, const LightChoice& lights, const BuildOptions& options,
+                     Response response, const Fit& fit) {
+  Manifest manifest;
+  manifest.size = capture.size();
+  manifest.tile = options.tile;
+  manifest.levels = levelsFor(manifest.size, manifest.tile);
+  manifest.domain = domainOf(fit);
+  manifest.response = response;
+  BasisEntry basis;
+  basis.name = fit.basisName;
+  basis.coefficients = fit.coefficients;
+  basis.colour = fit.basis.colour();
+  basis.mixing = fit.mixing;
+  manifest.bases = {basis};
+  manifest.groups = {GroupEntry{.name = "0", .basis = 0, .views = 1, .objectFromGroup = {}}};
+  manifest.mask = capture.hasMask();
+  manifest.lights = capture.lights();
+  manifest.heldOut = lights.heldOut;
+  manifest.generator = fmt::format("Illumigraph {}", kVersion);
+  for (const auto& choice : fit.choices) manifest.provenance.emplace_back("fit", choice);
+  return manifest;
+}
+
+// Chosen by the pilot before the whole is read.
+struct Plan {
+  Fit fit;
+  QuantiserChoice quantiser;
+};
+
+Plan planObject(const Capture& capture, const LightChoice& lights, const BuildOptions& options,
+                Response response, std::uint64_t memoryBytes, Progress& progress) {
+  const auto most = pilotPixels(static_cast<int>(lights.used.size()), memoryBytes);
+  const Pilot pilot = drawPilot(capture, lights.used, most, progress);
+  progress.begin("choosing the light basis", 1);
+  Plan plan;
+  plan.fit = fitBasis(lights.directions, statisticsOf(pilot), fitOptionsFrom(options));
+  std::vector<float> planes(static_cast<std::size_t>(plan.fit.basis.planes()) * pilot.pixels);
+  plan.fit.planes.apply(pilot.samples, pilot.pixels, planes);
+  QuantiserRequest request;
+  request.coding = codingFromName(options.coding);
+  request.bits = options.bits;
+  if (options.curve) request.curve = curveFromName(*options.curve);
+  plan.quantiser = chooseQuantiser(plan.fit, lights.directions, response, planes, pilot.pixels,
+                                   pilot.complete, request);
+  progress.end();
+  return plan;
+}
+
+// How many tiles may be coded side by side, or an Error with the least budget.
+int tilesAtOnce(const Manifest& manifest, int basisPlanes, const Capture& capture,
+                std::uint64_t memoryBytes) {
+  const std::uint64_t fixed = capture.residentBytes() + planeRowBytes(manifest, basisPlanes);
+  const std::uint64_t each = tileCodingBytes(manifest, basisPlanes);
+  if (fixed + each > memoryBytes) {
+    throw Error(
+        Fault::Input,
+        fmt::format("--max-memory {}: this object needs at least {} ({} for the photographs, "
+                    "{} for a row of tiles, {} to code a tile); a smaller --tile needs less",
+                    textFromBytes(memoryBytes), textFromBytes(fixed + each),
+                    textFromBytes(capture.residentBytes()),
+                    textFromBytes(planeRowBytes(manifest, basisPlanes)), textFromBytes(each)));
+  }
+  const auto threads = static_cast<std::uint64_t>(tbb::this_task_arena::max_concurrency());
+  return static_cast<int>(std::clamp<std::uint64_t>((memoryBytes - fixed) / each, 1, threads));
+}
+
+std::uint64_t tileCount(const Manifest& manifest) {
+  std::uint64_t tiles = 0;
+  for (int level = 0; level < manifest.levels; ++level) {
+    tiles += static_cast<std::uint64_t>(manifest.tilesAcross(level)) *
+             static_cast<std::uint64_t>(manifest.tilesDown(level));
+  }
+  return tiles;
+}
+
+// Fits and codes all tiles; returns the clipped samples.
+std::uint64_t writeTiles(const Capture& capture, const LightChoice& lights, const Fit& fit,
+                         const Manifest& manifest, const EncodeSettings& settings, int atOnce,
+                         ObjectWriter& writer, Progress& progress, const BuildOptions& options) {
+  TileWriter tiles(manifest, settings, fit.basis.planes(), atOnce, writer, progress, options.stop);
+  LevelPyramid pyramid(manifest, fit.basis.planes(), [&](const PlaneRow& row) {
+    tiles.write(row);
+    if (row.level + 1 < manifest.levels) return;
+    writer.add("poster.jpg",
+               encodeJpeg(posterOf(row, fit, manifest, lights.directions), kPosterQuality));
+  });
+  progress.begin("fitting and coding tiles", tileCount(manifest));
+  for (int row = 0; row < manifest.tilesDown(0); ++row) {
+    pyramid.add(fitRow(capture, lights.used, fit.planes, manifest, row));
+  }
+  progress.end();
+  return tiles.clippedSamples();
+}
+
+void describe(const Plan& plan, const EncodeSettings& settings, Manifest& manifest,
+              BuildReport& report) {
+  report.choices = plan.fit.choices;
+  report.warnings = plan.fit.warnings;
+  report.leaveOneOutDecibels = plan.fit.leaveOneOutDecibels;
+  report.quantisationDecibels = plan.quantiser.decibels;
+  const CodingEntry& coding = manifest.coding;
+  report.choices.push_back(
+      fmt::format("{} bits, curve {}, step {:.6g}: {} stored planes for {} of the basis; "
+                  "quantisation alone {:.1f} dB",
+                  coding.bits, coding.curve == Curve::Linear ? "linear" : "signedSqrt", coding.step,
+                  coding.functions.size(), plan.fit.basis.planes(), plan.quantiser.decibels));
+  manifest.provenance.emplace_back("quantiser", report.choices.back());
+  manifest.provenance.emplace_back(
+      "coding", fmt::format("{}, quality {}, speed {}", nameOf(coding.coding), settings.quality,
+                            settings.speed));
+}
+
+}  // namespace
+
+BuildReport buildObject(const Capture& source, const std::filesystem::path& out,
+                        const BuildOptions& options, Progress& progress) {
+  checkOptions(options);
+  const Response response = responseFor(options, source.transfer());
+  const ResponseCapture capture(
+      source, response == Response::Display ? Transfer::Display : Transfer::Linear);
+  const LightChoice lights = chooseLights(capture, options.holdout);
+  const std::uint64_t memoryBytes =
+      options.memoryBytes != 0 ? options.memoryBytes : machineMemoryBytes() / 4;
+
+  const bool folder = !out.has_filename();
+  ObjectWriter writer(folder ? out.parent_path() : out,
+                      folder ? ObjectForm::Folder : ObjectForm::Archive,
+                      fingerprintOf(capture, options), options.resume, options.force);
+  BuildReport report;
+  try {
+    const std::uint64_t forPlan = memoryBytes - std::min(memoryBytes, capture.residentBytes());
+    const Plan plan = planObject(capture, lights, options, response, forPlan, progress);
+    EncodeSettings settings;
+    settings.quality = options.quality >= 0 ? options.quality : kDefaultQuality;
+    settings.speed = options.speed >= 0 ? options.speed : kDefaultSpeed;
+    Manifest manifest = manifestFor(capture, lights, options, response, plan.fit);
+    manifest.coding = plan.quantiser.entry;
+    manifest.coding.quality = settings.quality;
+    describe(plan, settings, manifest, report);
+
+    const int atOnce = tilesAtOnce(manifest, plan.fit.basis.planes(), capture, memoryBytes);
+    const std::uint64_t clipped = writeTiles(capture, lights, plan.fit, manifest, settings, atOnce,
+                                             writer, progress, options);
+    if (clipped > 0) {
+      report.warnings.push_back(fmt::format(
+          "{} plane samples lay outside the quantiser's range and took its nearest end", clipped));
+    }
+    BasisTable table = plan.fit.basis.table();
+    const auto tableBytes = table.encode();
+    manifest.bases[0].tableBytes = tableBytes.size();
+    writer.add("basis.bin", tableBytes);
+    const std::string text = textOf(manifest);
+    writer.add("object.json", std::as_bytes(std::span(text)));
+    report.bytes = writer.finish();
+  } catch (const BuildStopped&) {
+    writer.keepPartial();
+    report.stopped = true;
+  } catch (const Error& error) {
+    if (error.fault() == Fault::Machine) writer.keepPartial();
+    throw;
+  } catch (const std::bad_alloc&) {
+    writer.keepPartial();
+    throw;
+  }
+  return report;
+}
+
+}  // namespace illum

@@ -1,1 +1,132 @@
+#include "illum/relight.h"
 
+#include <fmt/format.h>
+#include <tbb/blocked_range2d.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "illum/error.h"
+#include "object/manifest.h"
+#include "relight/tile_cache.h"
+#include "relight/weighted_sum.h"
+
+namespace illum {
+namespace {
+
+void checkRequest(const Object& object, int group, int level) {
+  const Manifest& manifest = object.manifest();
+  if (group < 0 || group >= static_cast<int>(manifest.groups.size())) {
+    throw Error(Fault::Usage,
+                fmt::format("{}: there is no group of views {}, only 0 to {}",
+                            object.path().string(), group, manifest.groups.size() - 1));
+  }
+  if (level < 0 || level >= manifest.levels) {
+    throw Error(Fault::Usage, fmt::format("{}: there is no level {}, only 0 to {}",
+                                          object.path().string(), level, manifest.levels - 1));
+  }
+}
+
+// One set of weights per pass over the planes: a linear response lets all lights share one.
+struct Pass {
+  FoldedWeights weights;
+  LinearRgb intensity{1, 1, 1};  // applied behind the response
+};
+
+std::vector<Pass> passesFor(const LightBasis& basis, const Manifest& manifest,
+                            std::span<const DirectionalLight> lights) {
+  std::vector<Pass> passes;
+  for (const DirectionalLight& light : lights) {
+    if (manifest.response != Response::Linear) {
+      passes.push_back({foldWeights(basis, manifest.coding, light.toLight), light.intensity});
+      continue;
+    }
+    const auto folded = foldWeights(basis, manifest.coding, light.toLight, light.intensity);
+    if (passes.empty()) {
+      passes.push_back({folded, {}});
+    } else {
+      addWeights(passes.front().weights, folded);
+    }
+  }
+  return passes;
+}
+
+// Linear RGB of `texels` texels of a tile from `first` on.
+void relightTexels(const PlaneCodes& codes, const Manifest& manifest, std::span<const Pass> passes,
+                   std::size_t first, std::span<float> rgb, std::vector<float>& scratch) {
+  if (manifest.response == Response::Linear && !passes.empty()) {
+    weightedSum(codes, manifest.coding, passes.front().weights, first, rgb);
+    return;
+  }
+  std::fill(rgb.begin(), rgb.end(), 0.0f);
+  scratch.resize(rgb.size());
+  for (const Pass& pass : passes) {
+    weightedSum(codes, manifest.coding, pass.weights, first, scratch);
+    applyResponse(manifest.response, scratch);
+    for (std::size_t i = 0; i < rgb.size(); i += 3) {
+      rgb[i] += pass.intensity.r * scratch[i];
+      rgb[i + 1] += pass.intensity.g * scratch[i + 1];
+      rgb[i + 2] += pass.intensity.b * scratch[i + 2];
+    }
+  }
+}
+
+void storeRow(std::span<const float> rgb, const BytePicture& mask, int row, const Rectangle& tile,
+              Picture& picture) {
+  const int channels = picture.channels();
+  float* out = picture.row(tile.y + row).data() + static_cast<std::ptrdiff_t>(tile.x) * channels;
+  if (channels == 3) {
+    std::copy(rgb.begin(), rgb.end(), out);
+    return;
+  }
+  for (int x = 0; x < tile.width; ++x, out += 4) {
+    const float coverage = static_cast<float>(mask.at(x, row, 0)) / 255.0f;
+    for (int c = 0; c < 3; ++c) out[c] = coverage * rgb[static_cast<std::size_t>(3 * x + c)];
+    out[3] = coverage;
+  }
+}
+
+}  // namespace
+
+struct Relighter::State {
+  State(Object object, std::uint64_t memoryBytes) : cache(std::move(object), memoryBytes) {}
+  mutable TileCache cache;
+};
+
+Relighter::Relighter(Object object, std::uint64_t memoryBytes)
+    : state_(std::make_unique<State>(std::move(object), memoryBytes)) {}
+Relighter::~Relighter() = default;
+
+Picture Relighter::relight(std::span<const DirectionalLight> lights, int group, int level) const {
+  const Object& object = state_->cache.object();
+  checkRequest(object, group, level);
+  const Manifest& manifest = object.manifest();
+  const auto passes = passesFor(object.basis(group), manifest, lights);
+  Picture picture(manifest.sizeAt(level), manifest.mask ? 4 : 3);
+
+  const auto relightTile = [&](int x, int y) {
+    const Rectangle tile = manifest.tileRectangle(level, x, y);
+    const auto codes = state_->cache.planes({group, level, x, y});
+    const BytePicture mask = manifest.mask ? object.maskTile(group, level, x, y) : BytePicture();
+    tbb::parallel_for(tbb::blocked_range<int>(0, tile.height, 16), [&](const auto& rows) {
+      std::vector<float> rgb(3 * static_cast<std::size_t>(tile.width)), scratch;
+      for (int row = rows.begin(); row < rows.end(); ++row) {
+        const auto first = static_cast<std::size_t>(row) * static_cast<std::size_t>(tile.width);
+        relightTexels(*codes, manifest, passes, first, rgb, scratch);
+        storeRow(rgb, mask, row, tile, picture);
+      }
+    });
+  };
+  tbb::parallel_for(
+      tbb::blocked_range2d<int>(0, manifest.tilesDown(level), 1, 0, manifest.tilesAcross(level), 1),
+      [&](const auto& range) {
+        for (int y = range.rows().begin(); y < range.rows().end(); ++y) {
+          for (int x = range.cols().begin(); x < range.cols().end(); ++x) relightTile(x, y);
+        }
+      },
+      tbb::simple_partitioner());
+  return picture;
+}
+
+}  // namespace illum

@@ -1,0 +1,154 @@
+#include "build/pilot.h"
+
+#include <cblas.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "illum/error.h"
+
+namespace illum {
+namespace {
+
+constexpr int kBlockSide = 16;
+constexpr std::size_t kMaxPixels = 250000;
+constexpr double kMaxMomentOperations = 1e11;  // about two seconds of one core
+
+// The blocks of one row of blocks that belong to the pilot.
+std::vector<Rectangle> blocksOfRow(Size size, int blockRow, int stride) {
+  std::vector<Rectangle> blocks;
+  const int across = (size.width + kBlockSide - 1) / kBlockSide;
+  // Rows are shifted against one another by the golden section, so that no column is never seen.
+  const int turn = blockRow / stride;
+  const int shift = static_cast<int>(0.6180339887 * turn * stride) % stride;
+  for (int column = shift; column < across; column += stride) {
+    const int x = column * kBlockSide, y = blockRow * kBlockSide;
+    blocks.push_back(
+        {x, y, std::min(kBlockSide, size.width - x), std::min(kBlockSide, size.height - y)});
+  }
+  return blocks;
+}
+
+struct BlockSamples {
+  std::size_t pixels = 0;
+  std::vector<float> samples;  // rows x pixels
+};
+
+BlockSamples readBlock(const Capture& capture, const Rectangle& block,
+                       std::span<const int> lights) {
+  const std::size_t rows = 3 * lights.size(), pixels = block.pixels();
+  BlockSamples out{pixels, std::vector<float>(rows * pixels)};
+  capture.read(0, block, lights, out.samples);
+  if (!capture.hasMask()) return out;
+
+  std::vector<float> coverage(pixels);
+  capture.readMask(0, block, coverage);
+  std::size_t kept = 0;
+  std::vector<std::size_t> source;
+  for (std::size_t p = 0; p < pixels; ++p) {
+    if (coverage[p] >= 0.5f) source.push_back(p), ++kept;
+  }
+  for (std::size_t row = 0; row < rows; ++row) {
+    for (std::size_t p = 0; p < kept; ++p) {
+      out.samples[row * kept + p] = out.samples[row * pixels + source[p]];
+    }
+  }
+  out.pixels = kept;
+  out.samples.resize(rows * kept);
+  return out;
+}
+
+}  // namespace
+
+std::size_t pilotPixels(int lights, std::uint64_t memoryBytes) {
+  const double rows = 3.0 * lights;
+  const double byCost = kMaxMomentOperations / (rows * rows);
+  // The samples stand in memory twice while blocks are put together.
+  const double byMemory = static_cast<double>(memoryBytes) / (4.0 * sizeof(float) * rows);
+  const double pixels = std::min({static_cast<double>(kMaxPixels), byCost, byMemory});
+  return std::max<std::size_t>(4096, static_cast<std::size_t>(pixels));
+}
+
+Pilot drawPilot(const Capture& capture, std::span<const int> lights, std::size_t maxPixels,
+                Progress& progress) {
+  const Size size = capture.size();
+  const double share = static_cast<double>(maxPixels) / static_cast<double>(size.pixels());
+  const int stride = share >= 1 ? 1 : static_cast<int>(std::ceil(1 / std::sqrt(share)));
+  const int blockRows = (size.height + kBlockSide - 1) / kBlockSide;
+
+  progress.begin("looking over the photographs",
+                 static_cast<std::uint64_t>((blockRows + stride - 1) / stride));
+  std::vector<BlockSamples> parts;
+  for (int blockRow = 0; blockRow < blockRows; blockRow += stride) {
+    const auto blocks = blocksOfRow(size, blockRow, stride);
+    const std::size_t first = parts.size();
+    parts.resize(first + blocks.size());
+    tbb::parallel_for(std::size_t{0}, blocks.size(), [&](std::size_t i) {
+      parts[first + i] = readBlock(capture, blocks[i], lights);
+    });
+    progress.advance();
+  }
+  progress.end();
+
+  Pilot pilot;
+  pilot.lights = static_cast<int>(lights.size());
+  pilot.complete = stride == 1;
+  for (const auto& part : parts) pilot.pixels += part.pixels;
+  if (pilot.pixels == 0) {
+    throw Error(Fault::Input,
+                "the mask leaves no pixel of the photographs: expected coverage of at "
+                "least one half somewhere, found none");
+  }
+  const std::size_t rows = 3 * lights.size();
+  pilot.samples.resize(rows * pilot.pixels);
+  std::size_t at = 0;
+  for (auto& part : parts) {
+    for (std::size_t row = 0; row < rows; ++row) {
+      std::copy_n(part.samples.data() + row * part.pixels, part.pixels,
+                  pilot.samples.data() + row * pilot.pixels + at);
+    }
+    at += part.pixels;
+    part = {};
+  }
+  return pilot;
+}
+
+SampleStatistics statisticsOf(const Pilot& pilot) {
+  // Products are summed in float over a slice and the slices in double, so that small eigenvalues
+  // of the moments survive.
+  constexpr std::size_t kSlice = 2048;
+  const std::size_t rows = 3 * static_cast<std::size_t>(pilot.lights);
+  SampleStatistics statistics;
+  statistics.lights = pilot.lights;
+  statistics.pixels = pilot.pixels;
+  statistics.mean.assign(rows, 0);
+  statistics.gram.assign(rows * rows, 0);
+
+  std::vector<float> partial(rows * rows);
+  const auto ld = static_cast<int>(pilot.pixels);
+  for (std::size_t begin = 0; begin < pilot.pixels; begin += kSlice) {
+    const std::size_t count = std::min(kSlice, pilot.pixels - begin);
+    cblas_ssyrk(CblasRowMajor, CblasUpper, CblasNoTrans, static_cast<int>(rows),
+                static_cast<int>(count), 1.0f, pilot.samples.data() + begin, ld, 0.0f,
+                partial.data(), static_cast<int>(rows));
+    for (std::size_t i = 0; i < rows; ++i) {
+      for (std::size_t j = i; j < rows; ++j) {
+        statistics.gram[i * rows + j] += static_cast<double>(partial[i * rows + j]);
+      }
+      const float* row = pilot.samples.data() + i * pilot.pixels + begin;
+      for (std::size_t p = 0; p < count; ++p) statistics.mean[i] += static_cast<double>(row[p]);
+    }
+  }
+  const double scale = 1.0 / static_cast<double>(pilot.pixels);
+  for (double& m : statistics.mean) m *= scale;
+  for (std::size_t i = 0; i < rows; ++i) {
+    for (std::size_t j = i; j < rows; ++j) {
+      statistics.gram[i * rows + j] *= scale;
+      statistics.gram[j * rows + i] = statistics.gram[i * rows + j];
+    }
+  }
+  return statistics;
+}
+
+}  // namespace illum

@@ -1,0 +1,138 @@
+#include "build/plane_row.h"
+
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace illum {
+namespace {
+
+// Pixels that are fitted by one matrix product: 3 lights' samples of them fill about the
+// second-level cache. Fixed, so that results do not depend on the number of threads.
+constexpr int kPatchWidth = 512, kPatchHeight = 8;
+
+PlaneRow emptyRow(const Manifest& manifest, int planes, int level, int row) {
+  const Size whole = manifest.sizeAt(level);
+  PlaneRow out;
+  out.level = level;
+  out.row = row;
+  out.size = {whole.width, std::min(manifest.tile, whole.height - row * manifest.tile)};
+  out.values.resize(static_cast<std::size_t>(planes) * out.size.pixels());
+  if (manifest.mask) out.coverage.resize(out.size.pixels());
+  return out;
+}
+
+struct Scratch {
+  std::vector<float> samples, planes, coverage;
+};
+
+// Fits one patch (in picture coordinates) into the row of tiles that begins at picture row `top`.
+void fitPatch(const Capture& capture, std::span<const int> lights, const PlaneOperator& planes,
+              const Rectangle& patch, int top, Scratch& scratch, PlaneRow& out) {
+  const std::size_t pixels = patch.pixels();
+  scratch.samples.resize(3 * lights.size() * pixels);
+  scratch.planes.resize(static_cast<std::size_t>(planes.planes) * pixels);
+  capture.read(0, patch, lights, scratch.samples);
+  planes.apply(scratch.samples, pixels, scratch.planes);
+  const auto store = [&](const float* from, float* plane) {
+    for (int y = 0; y < patch.height; ++y, from += patch.width) {
+      const auto at =
+          static_cast<std::size_t>(patch.y - top + y) * static_cast<std::size_t>(out.size.width) +
+          static_cast<std::size_t>(patch.x);
+      std::copy_n(from, patch.width, plane + at);
+    }
+  };
+  for (std::size_t k = 0; k < static_cast<std::size_t>(planes.planes); ++k) {
+    store(scratch.planes.data() + k * pixels, out.values.data() + k * out.size.pixels());
+  }
+  if (out.coverage.empty()) return;
+  scratch.coverage.resize(pixels);
+  capture.readMask(0, patch, scratch.coverage);
+  store(scratch.coverage.data(), out.coverage.data());
+}
+
+}  // namespace
+
+PlaneRow fitRow(const Capture& capture, std::span<const int> lights, const PlaneOperator& planes,
+                const Manifest& manifest, int row) {
+  PlaneRow out = emptyRow(manifest, planes.planes, 0, row);
+  const int top = row * manifest.tile, bottom = top + out.size.height;
+  const int across = (out.size.width + kPatchWidth - 1) / kPatchWidth;
+  tbb::enumerable_thread_specific<Scratch> scratches;
+  for (int y = top; y < bottom;) {
+    // Never across the border of two bands: a sequential capture would have to go back.
+    const int bandEnd = (y / capture.bandRows() + 1) * capture.bandRows();
+    const int end = std::min(bottom, bandEnd);
+    const int down = (end - y + kPatchHeight - 1) / kPatchHeight;
+    tbb::parallel_for(0, across * down, [&](int i) {
+      const int px = i % across * kPatchWidth, py = y + i / across * kPatchHeight;
+      const Rectangle patch{px, py, std::min(kPatchWidth, out.size.width - px),
+                            std::min(kPatchHeight, end - py)};
+      fitPatch(capture, lights, planes, patch, top, scratches.local(), out);
+    });
+    y = end;
+  }
+  return out;
+}
+
+std::uint64_t planeRowBytes(const Manifest& manifest, int basisPlanes) {
+  const auto row = static_cast<std::uint64_t>(manifest.size.width) *
+                   static_cast<std::uint64_t>(std::min(manifest.tile, manifest.size.height)) *
+                   (static_cast<std::uint64_t>(basisPlanes) + 1) * sizeof(float);
+  return 2 * row;  // level l in flight is half as wide as level l-1
+}
+
+void LevelPyramid::add(PlaneRow row) {
+  const int next = row.level + 1;
+  if (next >= manifest_.levels) {
+    emit_(std::move(row));
+    return;
+  }
+  auto& pending = pending_[static_cast<std::size_t>(next)];
+  if (pending.values.empty()) pending = emptyRow(manifest_, planes_, next, row.row / 2);
+  shrinkInto(row, pending);
+  const bool whole = row.row % 2 == 1 || row.row == manifest_.tilesDown(row.level) - 1;
+  emit_(std::move(row));
+  if (whole) add(std::exchange(pending, {}));
+}
+
+void LevelPyramid::shrinkInto(const PlaneRow& fine, PlaneRow& coarse) const {
+  const int top = fine.row % 2 * (manifest_.tile / 2);
+  const int height = (fine.size.height + 1) / 2;
+  const auto fineWidth = static_cast<std::size_t>(fine.size.width);
+  // The mean over the block's texels inside the picture; hidden ones count little, but are never
+  // lost.
+  const auto weightOf = [&](std::size_t i) {
+    return fine.coverage.empty() ? 1.0f : fine.coverage[i] + 1e-6f;
+  };
+  tbb::parallel_for(0, height, [&](int y) {
+    for (int x = 0; x < coarse.size.width; ++x) {
+      std::size_t texels[4];
+      std::size_t count = 0;
+      for (int dy = 0; dy < 2 && 2 * y + dy < fine.size.height; ++dy) {
+        for (int dx = 0; dx < 2 && 2 * x + dx < fine.size.width; ++dx) {
+          texels[count++] = static_cast<std::size_t>(2 * y + dy) * fineWidth +
+                            static_cast<std::size_t>(2 * x + dx);
+        }
+      }
+      const auto to =
+          static_cast<std::size_t>(top + y) * static_cast<std::size_t>(coarse.size.width) +
+          static_cast<std::size_t>(x);
+      float weights[4], sum = 0, covered = 0;
+      for (std::size_t i = 0; i < count; ++i) sum += weights[i] = weightOf(texels[i]);
+      for (std::size_t k = 0; k < static_cast<std::size_t>(planes_); ++k) {
+        const float* plane = fine.values.data() + k * fine.size.pixels();
+        float mean = 0;
+        for (std::size_t i = 0; i < count; ++i) mean += weights[i] * plane[texels[i]];
+        coarse.values[k * coarse.size.pixels() + to] = mean / sum;
+      }
+      if (fine.coverage.empty()) continue;
+      for (std::size_t i = 0; i < count; ++i) covered += fine.coverage[texels[i]];
+      coarse.coverage[to] = covered / static_cast<float>(count);
+    }
+  });
+}
+
+}  // namespace illum

@@ -1,0 +1,239 @@
+#include "build/quantiser.h"
+
+#include <cblas.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "illum/colour.h"
+#include "illum/error.h"
+
+namespace illum {
+namespace {
+
+// Pixels on which a candidate is tried.
+constexpr std::size_t kTrialPixels = 16384;
+
+// Stored planes may be this many times the basis planes, when ranges are split over several.
+constexpr double kMaxSplit = 2.0;
+
+struct Range {
+  double low = 0, high = 0;
+  double length() const { return high - low; }
+};
+
+double curved(Curve curve, double value) {
+  return curve == Curve::Linear ? value : std::copysign(std::sqrt(std::abs(value)), value);
+}
+double uncurved(Curve curve, double s) {
+  return curve == Curve::Linear ? s : s * std::abs(s);
+}
+
+std::vector<Range> rangesOf(std::span<const float> planes, std::size_t pixels, bool complete,
+                            Curve curve) {
+  std::vector<Range> ranges;
+  for (std::size_t begin = 0; begin < planes.size(); begin += pixels) {
+    const auto [low, high] =
+        std::minmax_element(planes.begin() + static_cast<std::ptrdiff_t>(begin),
+                            planes.begin() + static_cast<std::ptrdiff_t>(begin + pixels));
+    Range range{curved(curve, static_cast<double>(*low)),
+                curved(curve, static_cast<double>(*high))};
+    // A selection has not seen the extremes.
+    const double margin = complete ? 0 : 0.1 * range.length();
+    ranges.push_back({range.low - margin, range.high + margin});
+  }
+  return ranges;
+}
+
+// The stored planes for a step: as many for each basis plane as its range needs.
+CodingEntry entryFor(const QuantiserRequest& request, Curve curve, int bits, double step,
+                     const std::vector<Range>& ranges, bool mayRepeat) {
+  CodingEntry entry;
+  entry.coding = request.coding;
+  entry.bits = bits;
+  entry.curve = curve;
+  entry.step = step;
+  const double span = step * ((1 << bits) - 1);
+  for (std::size_t k = 0; k < ranges.size(); ++k) {
+    const int parts =
+        mayRepeat ? std::max(1, static_cast<int>(std::ceil(ranges[k].length() / span - 1e-9))) : 1;
+    for (int part = 0; part < parts; ++part) {
+      entry.functions.push_back(static_cast<int>(k));
+      entry.offsets.push_back(part == 0 ? ranges[k].low : 0);
+    }
+  }
+  return entry;
+}
+
+double longest(const std::vector<Range>& ranges) {
+  double length = 0;
+  for (const Range& range : ranges) length = std::max(length, range.length());
+  // Constant planes still need a step that is a number.
+  return std::max(length, 1e-6);
+}
+
+// What a screen shows of a plane combination, unrounded.
+float onScreen(Response response, float value) {
+  if (response == Response::Display) return std::clamp(value, 0.0f, 1.0f);
+  return displayFromLinear(std::clamp(value, 0.0f, 1.0f));
+}
+
+// Tries quantisers on a part of the pilot.
+class Trial {
+ public:
+  Trial(const Fit& fit, std::span<const DirectionalLight> lights, Response response,
+        std::span<const float> planes, std::size_t pixels)
+      : response_(response), planeCount_(fit.basis.planes()), lights_(lights.size()) {
+    const std::size_t stride = std::max<std::size_t>(1, pixels / kTrialPixels);
+    for (std::size_t p = 0; p < pixels; p += stride) ++pixels_;
+    for (std::size_t k = 0; k < static_cast<std::size_t>(planeCount_); ++k) {
+      for (std::size_t p = 0; p < pixels; p += stride) values_.push_back(planes[k * pixels + p]);
+    }
+    std::vector<float> b(fit.basis.evaluateSize());
+    for (const DirectionalLight& light : lights) {
+      fit.basis.evaluate(light.toLight, b);
+      for (std::size_t c = 0; c < 3; ++c) {
+        for (std::size_t k = 0; k < static_cast<std::size_t>(planeCount_); ++k) {
+          weights_.push_back(b[3 * k + c]);
+        }
+        mean_.push_back(b[3 * static_cast<std::size_t>(planeCount_) + c]);
+      }
+    }
+    truth_ = shown(values_);
+  }
+
+  // Mean over lights of the PSNR that quantising alone reaches.
+  double decibels(const CodingEntry& entry) const {
+    std::uint64_t clipped = 0;
+    const Size size{static_cast<int>(pixels_), 1};
+    const auto codes = quantise(entry, values_, size, clipped);
+    const auto trial = shown(dequantise(entry, codes, planeCount_));
+    double sum = 0;
+    const std::size_t perLight = 3 * pixels_;
+    for (std::size_t l = 0; l < lights_; ++l) {
+      double squares = 0;
+      for (std::size_t i = l * perLight; i < (l + 1) * perLight; ++i) {
+        const double d = static_cast<double>(trial[i]) - static_cast<double>(truth_[i]);
+        squares += d * d;
+      }
+      sum += std::min(99.0,
+                      -10 * std::log10(std::max(1e-12, squares / static_cast<double>(perLight))));
+    }
+    return sum / static_cast<double>(lights_);
+  }
+
+ private:
+  std::vector<float> shown(const std::vector<float>& values) const {
+    const auto rows = static_cast<int>(3 * lights_), columns = static_cast<int>(pixels_);
+    std::vector<float> out(3 * lights_ * pixels_);
+    cblas_sgemm(CblasRowMajor, CblasNoTrans, CblasNoTrans, rows, columns, planeCount_, 1.0f,
+                weights_.data(), planeCount_, values.data(), columns, 0.0f, out.data(), columns);
+    for (std::size_t row = 0; row < 3 * lights_; ++row) {
+      for (std::size_t p = 0; p < pixels_; ++p) {
+        float& value = out[row * pixels_ + p];
+        value = onScreen(response_, value + mean_[row]);
+      }
+    }
+    return out;
+  }
+
+  Response response_;
+  int planeCount_;
+  std::size_t lights_, pixels_ = 0;
+  std::vector<float> values_, weights_, mean_, truth_;
+};
+
+// The coarsest step that reaches the target with as many stored planes as it takes (up to
+// kMaxSplit).
+QuantiserChoice splitRanges(const Trial& trial, const QuantiserRequest& request,
+                            const std::vector<Range>& ranges, int bits) {
+  const double single = longest(ranges) / ((1 << bits) - 1);
+  const auto most = static_cast<std::size_t>(kMaxSplit * static_cast<double>(ranges.size()));
+  QuantiserChoice choice;
+  double step = single;
+  for (int attempt = 0; attempt < 6; ++attempt) {
+    CodingEntry entry = entryFor(request, Curve::Linear, bits, step, ranges, true);
+    if (attempt > 0 && entry.functions.size() > most) return choice;
+    const double decibels = trial.decibels(entry);
+    if (attempt == 0 || decibels > choice.decibels) choice = {std::move(entry), decibels};
+    if (decibels >= request.targetDecibels) return choice;
+    // Uniform quantising: the error goes with the step.
+    step *= std::pow(10.0, (decibels - request.targetDecibels - 0.2) / 20);
+  }
+  return choice;
+}
+
+}  // namespace
+
+QuantiserChoice chooseQuantiser(const Fit& fit, std::span<const DirectionalLight> lights,
+                                Response response, std::span<const float> planes,
+                                std::size_t pixels, bool complete,
+                                const QuantiserRequest& request) {
+  const Trial trial(fit, lights, response, planes, pixels);
+  const auto plain = [&](Curve curve, int bits) {
+    const auto ranges = rangesOf(planes, pixels, complete, curve);
+    const double step = longest(ranges) / ((1 << bits) - 1);
+    CodingEntry entry = entryFor(request, curve, bits, step, ranges, false);
+    const double decibels = trial.decibels(entry);
+    return QuantiserChoice{std::move(entry), decibels};
+  };
+  if (request.bits) return plain(request.curve.value_or(Curve::Linear), *request.bits);
+
+  if (request.coding == Coding::Png) {
+    QuantiserChoice choice;
+    for (const int bits : {8, 10, 12, 16}) {
+      choice = plain(request.curve.value_or(Curve::Linear), bits);
+      if (choice.decibels >= request.targetDecibels) break;
+    }
+    return choice;
+  }
+  if (request.curve == Curve::SignedSqrt) return plain(Curve::SignedSqrt, 8);
+  QuantiserChoice choice =
+      splitRanges(trial, request, rangesOf(planes, pixels, complete, Curve::Linear), 8);
+  if (request.curve || choice.decibels >= request.targetDecibels) return choice;
+  QuantiserChoice root = plain(Curve::SignedSqrt, 8);
+  return root.decibels > choice.decibels ? root : choice;
+}
+
+PlaneCodes quantise(const CodingEntry& entry, std::span<const float> planes, Size tile,
+                    std::uint64_t& clipped) {
+  const std::size_t pixels = tile.pixels(), stored = entry.functions.size();
+  const double top = (1 << entry.bits) - 1;
+  PlaneCodes codes{static_cast<int>(stored), tile, std::vector<std::uint16_t>(stored * pixels)};
+  for (std::size_t p = 0; p < stored;) {
+    const auto function = static_cast<std::size_t>(entry.functions[p]);
+    std::size_t parts = 1;
+    while (p + parts < stored && entry.functions[p + parts] == entry.functions[p]) ++parts;
+    for (std::size_t i = 0; i < pixels; ++i) {
+      const double s = curved(entry.curve, static_cast<double>(planes[function * pixels + i]));
+      const double whole = std::round((s - entry.offsets[p]) / entry.step);
+      const double most = static_cast<double>(parts) * top;
+      if (whole < 0 || whole > most) ++clipped;
+      double rest = std::clamp(whole, 0.0, most);
+      for (std::size_t part = 0; part < parts; ++part) {
+        const double code = std::min(rest, top);
+        codes.values[(p + part) * pixels + i] = static_cast<std::uint16_t>(code);
+        rest -= code;
+      }
+    }
+    p += parts;
+  }
+  return codes;
+}
+
+std::vector<float> dequantise(const CodingEntry& entry, const PlaneCodes& codes, int basisPlanes) {
+  const std::size_t pixels = codes.tile.pixels();
+  std::vector<float> planes(static_cast<std::size_t>(basisPlanes) * pixels);
+  for (std::size_t p = 0; p < entry.functions.size(); ++p) {
+    const auto function = static_cast<std::size_t>(entry.functions[p]);
+    for (std::size_t i = 0; i < pixels; ++i) {
+      const double s = entry.offsets[p] + entry.step * codes.values[p * pixels + i];
+      planes[function * pixels + i] += static_cast<float>(uncurved(entry.curve, s));
+    }
+  }
+  return planes;
+}
+
+}  // namespace illum

@@ -1,0 +1,60 @@
+// The last steps of building: a row of fitted planes becomes coded tiles, and one of them the
+// poster.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <functional>
+
+#include "build/plane_row.h"
+#include "encode/encode_tile.h"
+#include "encode/object_writer.h"
+#include "fit/fit.h"
+#include "illum/progress.h"
+#include "object/manifest.h"
+
+namespace illum {
+
+/// Thrown to leave a build that the user stopped; what is done is kept.
+struct BuildStopped {};
+
+class TileWriter {
+ public:
+  /// `atOnce`: tiles coded side by side, which bounds memory. `stop` may be empty.
+  TileWriter(const Manifest& manifest, const EncodeSettings& settings, int basisPlanes, int atOnce,
+             ObjectWriter& writer, Progress& progress, std::function<bool()> stop)
+      : manifest_(manifest),
+        settings_(settings),
+        basisPlanes_(basisPlanes),
+        atOnce_(atOnce),
+        writer_(writer),
+        progress_(progress),
+        stop_(std::move(stop)) {}
+
+  /// Quantises, codes and adds the row's tiles that the writer does not have yet.
+  void write(const PlaneRow& row);
+
+  std::uint64_t clippedSamples() const { return clipped_; }
+
+ private:
+  void writeTile(const PlaneRow& row, int x);
+  void writeMask(const PlaneRow& row, int x);
+
+  const Manifest& manifest_;
+  EncodeSettings settings_;
+  int basisPlanes_, atOnce_;
+  ObjectWriter& writer_;
+  Progress& progress_;
+  std::function<bool()> stop_;
+  std::atomic<std::uint64_t> clipped_ = 0;
+};
+
+/// Bytes that coding one full tile takes beside the row itself, measured generously.
+std::uint64_t tileCodingBytes(const Manifest& manifest, int basisPlanes);
+
+/// What the object looks like: the coarsest level under the captured light nearest to the upper
+/// left.
+BytePicture posterOf(const PlaneRow& coarsest, const Fit& fit, const Manifest& manifest,
+                     std::span<const DirectionalLight> lights);
+
+}  // namespace illum

@@ -1,0 +1,38 @@
+// The heart of relighting: what a light set makes of a tile's codes.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "illum/basis_table.h"
+#include "illum/light.h"
+#include "object/manifest.h"
+
+namespace illum {
+
+/// One light, or a whole set in a linear object, folded into a weight per stored plane:
+///   colour(x) = constant + sum_p weight_p * v_p(x),
+/// where v_p is the code itself (curve linear; step and offset are inside the weights) or the
+/// plane's value (signedSqrt).
+struct FoldedWeights {
+  std::vector<std::array<float, 3>> perPlane;
+  std::array<float, 3> constant{};
+};
+
+/// Folds m(w) + sum_k b_k(w) P_k for a light from `toLight`, times `intensity` per channel.
+FoldedWeights foldWeights(const LightBasis& basis, const CodingEntry& coding, Direction toLight,
+                          LinearRgb intensity = {1, 1, 1});
+
+/// Adds `b` to `a`; both folded from the same basis and coding.
+void addWeights(FoldedWeights& a, const FoldedWeights& b);
+
+/// rgb[3 * i + c] for the texels first … first + rgb.size() / 3 - 1 of the tile.
+void weightedSum(const PlaneCodes& codes, const CodingEntry& coding, const FoldedWeights& weights,
+                 std::size_t first, std::span<float> rgb);
+
+/// The object's response g, in place: from what the planes hold to linear light.
+void applyResponse(Response response, std::span<float> samples);
+
+}  // namespace illum
