@@ -12,7 +12,7 @@ build_packages=(
   g++ cmake ninja-build ccache pkg-config
   libpng-dev libjpeg62-turbo-dev libavif-dev libopenexr-dev libimath-dev libzip-dev zlib1g-dev
   libopenimageio-dev openimageio-tools liblcms2-dev libhwy-dev libeigen3-dev libopenblas-dev libtbb-dev
-  libcli11-dev nlohmann-json3-dev libfmt-dev libgtest-dev libgmock-dev
+  libhwy-dev libcli11-dev nlohmann-json3-dev libfmt-dev libgtest-dev libgmock-dev
   python3 python3-numpy python3-pil
 )
 test_packages=(
