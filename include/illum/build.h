@@ -1,7 +1,6 @@
 // The whole way from a capture to an .illum object.
 #pragma once
 
-#include <atomic>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
@@ -31,7 +30,7 @@ struct BuildOptions {
   int tile = 512;                         ///< side of a tile, multiple of 8
   std::uint64_t memoryBytes = 0;          ///< 0: a quarter of the machine
   bool resume = false, force = false;
-  /// Asked between tiles; true stops the build with what is done kept for `resume`.
+  /// Asked whenever progress is made; true stops the build with what is done kept for `resume`.
   std::function<bool()> stop;
 };
 

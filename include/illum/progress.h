@@ -12,7 +12,7 @@ class Progress {
   virtual ~Progress() = default;
   /// A new stage of `total` equal steps begins; `what` is a short phrase ("reading 60 photographs").
   virtual void begin(std::string_view what, std::uint64_t total);
-  /// `steps` more are done.
+  /// `steps` more are done. May throw to leave the work.
   virtual void advance(std::uint64_t steps = 1);
   virtual void end();
   /// One sentence that the user should read (a repair, a doubt, a choice that was made).

@@ -52,6 +52,27 @@ Curve curveFromName(const std::string& name) {
               fmt::format("--curve: expected linear or signedSqrt, found \"{}\"", name));
 }
 
+// Leaves a build that the user stopped; what is done is kept.
+struct BuildStopped {};
+
+// Looks, wherever progress is reported, whether the user wants to stop.
+class StoppableProgress final : public Progress {
+ public:
+  StoppableProgress(Progress& inner, const std::function<bool()>& stop)
+      : inner_(inner), stop_(stop) {}
+  void begin(std::string_view what, std::uint64_t total) override { inner_.begin(what, total); }
+  void advance(std::uint64_t steps) override {
+    inner_.advance(steps);
+    if (stop_ && stop_()) throw BuildStopped();
+  }
+  void end() override { inner_.end(); }
+  void remark(std::string_view sentence) override { inner_.remark(sentence); }
+
+ private:
+  Progress& inner_;
+  const std::function<bool()>& stop_;
+};
+
 // The samples in the domain in which the planes are fitted.
 class ResponseCapture final : public Capture {
  public:
@@ -246,8 +267,8 @@ std::uint64_t tileCount(const Manifest& manifest) {
 // Fits and codes all tiles; returns the clipped samples.
 std::uint64_t writeTiles(const Capture& capture, const LightChoice& lights, const Fit& fit,
                          const Manifest& manifest, const EncodeSettings& settings, int atOnce,
-                         ObjectWriter& writer, Progress& progress, const BuildOptions& options) {
-  TileWriter tiles(manifest, settings, fit.basis.planes(), atOnce, writer, progress, options.stop);
+                         ObjectWriter& writer, Progress& progress) {
+  TileWriter tiles(manifest, settings, fit.basis.planes(), atOnce, writer, progress);
   LevelPyramid pyramid(manifest, fit.basis.planes(), [&](const PlaneRow& row) {
     tiles.write(row);
     if (row.level + 1 < manifest.levels) return;
@@ -283,8 +304,9 @@ void describe(const Plan& plan, const EncodeSettings& settings, Manifest& manife
 }  // namespace
 
 BuildReport buildObject(const Capture& source, const std::filesystem::path& out,
-                        const BuildOptions& options, Progress& progress) {
+                        const BuildOptions& options, Progress& reported) {
   checkOptions(options);
+  StoppableProgress progress(reported, options.stop);
   const Response response = responseFor(options, source.transfer());
   const ResponseCapture capture(
       source, response == Response::Display ? Transfer::Display : Transfer::Linear);
@@ -309,8 +331,8 @@ BuildReport buildObject(const Capture& source, const std::filesystem::path& out,
     describe(plan, settings, manifest, report);
 
     const int atOnce = tilesAtOnce(manifest, plan.fit.basis.planes(), capture, memoryBytes);
-    const std::uint64_t clipped = writeTiles(capture, lights, plan.fit, manifest, settings, atOnce,
-                                             writer, progress, options);
+    const std::uint64_t clipped =
+        writeTiles(capture, lights, plan.fit, manifest, settings, atOnce, writer, progress);
     if (clipped > 0) {
       report.warnings.push_back(fmt::format(
           "{} plane samples lay outside the quantiser's range and took its nearest end", clipped));

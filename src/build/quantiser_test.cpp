@@ -1,0 +1,125 @@
+#include "build/quantiser.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+namespace illum {
+namespace {
+
+// Two planes over a basis that is a constant and a slope; the table reproduces both exactly.
+Fit makeFit() {
+  BasisTable table(LightDomain::Hemisphere, 9, 9);
+  table.fill([](Direction d, std::span<double> out) {
+    for (int c = 0; c < 3; ++c) {
+      out[static_cast<std::size_t>(c)] = 1;
+      out[static_cast<std::size_t>(3 + c)] = d.x();
+      out[static_cast<std::size_t>(6 + c)] = 0.1;
+    }
+  });
+  Fit fit;
+  fit.basis = LightBasis(table, {BasisColour::Kind::Full, {}});
+  return fit;
+}
+
+std::vector<DirectionalLight> makeLights() {
+  std::vector<DirectionalLight> lights;
+  for (int i = 0; i < 8; ++i) lights.push_back({Direction::fromAngles(0.7, 0.785 * i), {1, 1, 1}});
+  return lights;
+}
+
+std::vector<float> makePlanes(std::size_t pixels) {
+  std::mt19937 random(7);
+  std::uniform_real_distribution<float> brightness(0, 0.8f), slope(-0.1f, 0.1f);
+  std::vector<float> planes(2 * pixels);
+  for (std::size_t p = 0; p < pixels; ++p) {
+    planes[p] = brightness(random);
+    planes[pixels + p] = slope(random);
+  }
+  return planes;
+}
+
+constexpr std::size_t kPixels = 4000;
+const Size kSize{80, 50};
+
+TEST(Quantiser, ErrorIsAtMostHalfAStep) {
+  const auto planes = makePlanes(kPixels);
+  for (const Coding coding : {Coding::Avif, Coding::Jpeg, Coding::Png}) {
+    const auto choice = chooseQuantiser(makeFit(), makeLights(), Response::Display, planes, kPixels,
+                                        true, {.coding = coding, .bits = {}, .curve = {}});
+    ASSERT_EQ(choice.entry.curve, Curve::Linear);
+    std::uint64_t clipped = 0;
+    const auto codes = quantise(choice.entry, planes, kSize, clipped);
+    EXPECT_EQ(clipped, 0u);
+    const auto back = dequantise(choice.entry, codes, 2);
+    for (std::size_t i = 0; i < planes.size(); ++i) {
+      ASSERT_NEAR(back[i], planes[i], 0.501 * choice.entry.step) << i;
+    }
+  }
+}
+
+TEST(Quantiser, ReachesItsTargetByStoringAWidePlaneTwice) {
+  const auto planes = makePlanes(kPixels);
+  const auto choice =
+      chooseQuantiser(makeFit(), makeLights(), Response::Display, planes, kPixels, true,
+                      {.coding = Coding::Avif, .bits = {}, .curve = {}, .targetDecibels = 60});
+  EXPECT_GE(choice.decibels, 60);
+  EXPECT_LE(choice.decibels, 64) << "bytes are spent on precision that nobody asked for";
+  EXPECT_EQ(choice.entry.bits, 8);
+  ASSERT_GT(choice.entry.functions.size(), 2u);
+  EXPECT_EQ(choice.entry.functions[1], 0);
+  EXPECT_EQ(choice.entry.offsets[1], 0);
+}
+
+TEST(Quantiser, GivenBitsAreKept) {
+  const auto planes = makePlanes(kPixels);
+  double before = 0;
+  for (const int bits : {8, 10, 12, 16}) {
+    const auto choice =
+        chooseQuantiser(makeFit(), makeLights(), Response::Linear, planes, kPixels, true,
+                        {.coding = Coding::Png, .bits = bits, .curve = Curve::Linear});
+    EXPECT_EQ(choice.entry.bits, bits);
+    EXPECT_EQ(choice.entry.functions.size(), 2u);
+    EXPECT_GT(choice.decibels, before + 3) << bits;
+    before = choice.decibels;
+  }
+}
+
+TEST(Quantiser, SignedSqrtIsFinerNearZero) {
+  const auto planes = makePlanes(kPixels);
+  const auto choice =
+      chooseQuantiser(makeFit(), makeLights(), Response::Linear, planes, kPixels, true,
+                      {.coding = Coding::Avif, .bits = 8, .curve = Curve::SignedSqrt});
+  std::uint64_t clipped = 0;
+  const auto back = dequantise(choice.entry, quantise(choice.entry, planes, kSize, clipped), 2);
+  for (std::size_t i = 0; i < planes.size(); ++i) {
+    const double root = std::sqrt(std::abs(static_cast<double>(planes[i])));
+    const double bound = choice.entry.step * (root + choice.entry.step);
+    ASSERT_NEAR(back[i], planes[i], bound) << planes[i];
+  }
+}
+
+TEST(Quantiser, ValuesOutsideAreCountedNotHidden) {
+  const auto planes = makePlanes(kPixels);
+  const auto choice = chooseQuantiser(makeFit(), makeLights(), Response::Display, planes, kPixels,
+                                      true, {.coding = Coding::Avif, .bits = {}, .curve = {}});
+  std::uint64_t clipped = 0;
+  const std::vector<float> wild{-3.0f, 0.5f, 7.0f, 0.0f};
+  const auto codes = quantise(choice.entry, wild, {2, 1}, clipped);
+  EXPECT_EQ(clipped, 2u);
+  const auto back = dequantise(choice.entry, codes, 2);
+  EXPECT_NEAR(back[0], 0.0, 0.01);  // the least value seen
+  EXPECT_NEAR(back[2], 0.1, 0.01);  // the greatest
+}
+
+TEST(Quantiser, ConstantPlanesNeedNoRange) {
+  const std::vector<float> planes(2 * kPixels, 0.25f);
+  const auto choice = chooseQuantiser(makeFit(), makeLights(), Response::Display, planes, kPixels,
+                                      true, {.coding = Coding::Avif, .bits = {}, .curve = {}});
+  EXPECT_GT(choice.entry.step, 0);
+  EXPECT_GE(choice.decibels, 50);
+}
+
+}  // namespace
+}  // namespace illum

@@ -39,7 +39,6 @@ void TileWriter::write(const PlaneRow& row) {
     tbb::parallel_for(
         0, manifest_.tilesAcross(row.level),
         [&](int x) {
-          if (stop_ && stop_()) throw BuildStopped();
           writeTile(row, x);
           if (manifest_.mask) writeMask(row, x);
           progress_.advance();

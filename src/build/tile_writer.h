@@ -4,7 +4,6 @@
 
 #include <atomic>
 #include <cstdint>
-#include <functional>
 
 #include "build/plane_row.h"
 #include "encode/encode_tile.h"
@@ -15,21 +14,17 @@
 
 namespace illum {
 
-/// Thrown to leave a build that the user stopped; what is done is kept.
-struct BuildStopped {};
-
 class TileWriter {
  public:
-  /// `atOnce`: tiles coded side by side, which bounds memory. `stop` may be empty.
+  /// `atOnce`: tiles coded side by side, which bounds memory.
   TileWriter(const Manifest& manifest, const EncodeSettings& settings, int basisPlanes, int atOnce,
-             ObjectWriter& writer, Progress& progress, std::function<bool()> stop)
+             ObjectWriter& writer, Progress& progress)
       : manifest_(manifest),
         settings_(settings),
         basisPlanes_(basisPlanes),
         atOnce_(atOnce),
         writer_(writer),
-        progress_(progress),
-        stop_(std::move(stop)) {}
+        progress_(progress) {}
 
   /// Quantises, codes and adds the row's tiles that the writer does not have yet.
   void write(const PlaneRow& row);
@@ -45,7 +40,6 @@ class TileWriter {
   int basisPlanes_, atOnce_;
   ObjectWriter& writer_;
   Progress& progress_;
-  std::function<bool()> stop_;
   std::atomic<std::uint64_t> clipped_ = 0;
 };
 

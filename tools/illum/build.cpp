@@ -1,0 +1,147 @@
+#include "illum/build.h"
+
+#include <fmt/format.h>
+
+#include <csignal>
+#include <cstdio>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "commands.h"
+#include "core/memory.h"
+#include "input_options.h"
+#include "terminal_progress.h"
+
+namespace illum::cli {
+namespace {
+
+volatile std::sig_atomic_t stopAsked = 0;
+
+// The first signal asks for an orderly stop; the second is the system's usual one.
+void askToStop(int signal) {
+  stopAsked = 1;
+  std::signal(signal, SIG_DFL);
+}
+
+// The capture may hold this share of the budget; the rest is for fitting and coding.
+constexpr double kCaptureShare = 0.6;
+
+struct BuildCommand {
+  InputOptions input;
+  MachineOptions machine;
+  BuildOptions build;
+  std::string output, curve, response;
+  int bits = 0;
+  double regularizer = 0;
+  bool json = false;
+
+  void addTo(CLI::App& command) {
+    command.add_option("INPUT", input.input, "folder of photographs with a light file")->required();
+    command.add_option("-o,--output", output, "object to write: NAME.illum, or FOLDER/")
+        ->required();
+    addBasisOptions(command);
+    addCodingOptions(command);
+    input.addTo(command);
+    machine.addTo(command);
+    command.add_option("--holdout", build.holdout, "leave every K-th light out of the fit");
+    command.add_flag("--resume", build.resume, "go on with a build that was interrupted");
+    command.add_flag("--force", build.force, "replace an existing object");
+    command.add_flag("--json", json, "print what was built as JSON");
+  }
+
+  void addBasisOptions(CLI::App& command) {
+    const std::string group = "Light basis";
+    command.add_option("--basis", build.basis, "learned (default), sh, hsh or dct")->group(group);
+    auto* coefficients =
+        command.add_option("--coefficients", build.coefficients, "per channel (sh, hsh, dct)")
+            ->group(group);
+    command.add_option("--planes", build.planes, "scalar planes in all")
+        ->group(group)
+        ->excludes(coefficients);
+    command.add_option("--regularizer", regularizer, "strength (default: by leave-one-out)")
+        ->group(group);
+    command
+        .add_flag("--weights,!--no-weights", build.solidAngleWeights,
+                  "weight lights by solid angle (default: by leave-one-out)")
+        ->group(group);
+    command
+        .add_flag("--extension,!--no-extension", build.extension,
+                  "extend samples below the horizon (default: by leave-one-out)")
+        ->group(group);
+    command.add_flag("--projection", build.projection, "integrate instead of least squares")
+        ->group(group);
+    command.add_option("--response", response, "fit in linear or display values")->group(group);
+  }
+
+  void addCodingOptions(CLI::App& command) {
+    const std::string group = "Coding";
+    command.add_option("--coding", build.coding, "avif (default), jpeg or png (lossless)")
+        ->group(group);
+    command.add_option("--quality", build.quality, "0 to 100")->group(group);
+    command.add_option("--bits", bits, "8, 10, 12 or 16 (default: chosen)")->group(group);
+    command.add_option("--curve", curve, "linear or signedSqrt (default: chosen)")->group(group);
+    command.add_option("--speed", build.speed, "of the AVIF coder, 0 (smallest) to 10")
+        ->group(group);
+    command.add_option("--tile", build.tile, "side of a tile in pixels")->group(group);
+  }
+
+  void finishOptions(const CLI::App& command) {
+    if (command.count("--bits") > 0) build.bits = bits;
+    if (command.count("--regularizer") > 0) build.regularizer = regularizer;
+    if (!curve.empty()) build.curve = curve;
+    if (!response.empty()) build.response = response;
+    build.memoryBytes = machine.memoryBytes();
+    build.stop = [] { return stopAsked != 0; };
+  }
+
+  void printReport(const BuildReport& report) const {
+    if (json) {
+      const nlohmann::ordered_json out{{"version", 1},
+                                       {"object", output},
+                                       {"bytes", report.bytes},
+                                       {"leaveOneOutDecibels", report.leaveOneOutDecibels},
+                                       {"quantisationDecibels", report.quantisationDecibels},
+                                       {"choices", report.choices},
+                                       {"warnings", report.warnings}};
+      fmt::print("{}\n", out.dump(2));
+      return;
+    }
+    for (const auto& choice : report.choices) fmt::print("  {}\n", choice);
+    fmt::print("{}: {}, expected quality at a new light {:.1f} dB\n", output,
+               textFromBytes(report.bytes), report.leaveOneOutDecibels);
+  }
+
+  int run() {
+    const ThreadLimit limit(machine.threads);
+    TerminalProgress progress;
+    std::signal(SIGINT, askToStop);
+    std::signal(SIGTERM, askToStop);
+    const auto forCapture =
+        static_cast<std::uint64_t>(kCaptureShare * static_cast<double>(build.memoryBytes));
+    auto scratch = std::filesystem::absolute(output).parent_path();
+    if (!std::filesystem::path(output).has_filename()) scratch = scratch.parent_path();
+    const auto capture = input.open(forCapture, scratch, progress);
+    const BuildReport report = buildObject(*capture, output, build, progress);
+    for (const auto& warning : report.warnings) progress.remark(warning);
+    if (report.stopped) {
+      fmt::print(stderr, "illum: stopped; the same command with --resume goes on\n");
+      return kStopped;
+    }
+    printReport(report);
+    return kDone;
+  }
+};
+
+}  // namespace
+
+void addBuild(CLI::App& program, int& exitCode) {
+  auto* command = program.add_subcommand("build", "make an object from photographs");
+  const auto state = std::make_shared<BuildCommand>();
+  state->addTo(*command);
+  command->callback([command, state, &exitCode] {
+    state->finishOptions(*command);
+    exitCode = state->run();
+  });
+}
+
+}  // namespace illum::cli

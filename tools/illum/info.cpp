@@ -1,0 +1,124 @@
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "commands.h"
+#include "core/memory.h"
+#include "illum/object.h"
+#include "object/manifest.h"
+
+namespace illum::cli {
+namespace {
+
+const char* nameOfResponse(Response response) {
+  switch (response) {
+    case Response::Linear:
+      return "linear";
+    case Response::Display:
+      return "display";
+    case Response::Cone:
+      return "cone";
+  }
+  return "";
+}
+
+// Bytes of the entries whose names begin with `prefix`.
+std::uint64_t bytesUnder(const Object& object, const std::string& prefix) {
+  std::uint64_t bytes = 0;
+  for (const auto& name : object.entries()) {
+    if (name.starts_with(prefix)) bytes += object.entry(name).size();
+  }
+  return bytes;
+}
+
+nlohmann::ordered_json describe(const Object& object) {
+  const Manifest& m = object.manifest();
+  const BasisEntry& basis = m.bases.front();
+  const double pixels = static_cast<double>(m.size.pixels());
+  nlohmann::ordered_json out;
+  out["version"] = 1;
+  out["format"] = fmt::format("{}.{}", m.versionMajor, m.versionMinor);
+  out["geometry"] = m.geometry;
+  out["width"] = m.size.width;
+  out["height"] = m.size.height;
+  out["levels"] = m.levels;
+  out["tile"] = m.tile;
+  out["basis"] = basis.name;
+  out["domain"] = m.domain == LightDomain::Sphere ? "sphere" : "hemisphere";
+  out["coefficients"] = basis.coefficients;
+  out["planes"] = object.basis(0).planes();
+  out["storedPlanes"] = m.planes();
+  out["response"] = nameOfResponse(m.response);
+  out["coding"] = nameOf(m.coding.coding);
+  out["quality"] = m.coding.quality;
+  out["bits"] = m.coding.bits;
+  out["curve"] = m.coding.curve == Curve::Linear ? "linear" : "signedSqrt";
+  out["step"] = m.coding.step;
+  out["mask"] = m.mask;
+  out["lights"] = m.lights.size();
+  out["heldOut"] = m.heldOut.size();
+  out["generator"] = m.generator;
+  out["bytes"] = object.fileBytes();
+  out["planeBytes"] = bytesUnder(object, "planes/");
+  out["basisBytes"] = bytesUnder(object, "basis.bin");
+  out["maskBytes"] = bytesUnder(object, "mask/");
+  out["bitsPerPixel"] = 8 * static_cast<double>(object.fileBytes()) / pixels;
+  for (const auto& [key, text] : m.provenance) out["provenance"].push_back({key, text});
+  return out;
+}
+
+void print(const std::string& path, const nlohmann::ordered_json& facts) {
+  const auto number = [&](const char* key) { return facts[key].get<long long>(); };
+  const auto text = [&](const char* key) { return facts[key].get<std::string>(); };
+  const auto bytes = [&](const char* key) {
+    return textFromBytes(facts[key].get<std::uint64_t>());
+  };
+  const auto line = [](const char* name, const std::string& value) {
+    fmt::print("{:<12}{}\n", name, value);
+  };
+  fmt::print("{}\n", path);
+  line("geometry", fmt::format("{}, {} x {} pixels, {} level{}, tiles of {}", text("geometry"),
+                               number("width"), number("height"), number("levels"),
+                               number("levels") == 1 ? "" : "s", number("tile")));
+  line("basis", fmt::format("{} over the {}, {} coefficients, {} planes ({} stored)", text("basis"),
+                            text("domain"), number("coefficients"), number("planes"),
+                            number("storedPlanes")));
+  line("response", text("response"));
+  line("coding",
+       fmt::format("{}, quality {}, {} bits, curve {}, step {:.6g}", text("coding"),
+                   number("quality"), number("bits"), text("curve"), facts["step"].get<double>()));
+  line("lights", fmt::format("{}, {} held out", number("lights"), number("heldOut")));
+  line("size",
+       fmt::format("{}, {:.2f} bits a pixel (planes {}, basis {}{})", bytes("bytes"),
+                   facts["bitsPerPixel"].get<double>(), bytes("planeBytes"), bytes("basisBytes"),
+                   facts["mask"].get<bool>() ? ", mask " + bytes("maskBytes") : ""));
+  line("made by", text("generator"));
+  if (!facts.contains("provenance")) return;
+  for (const auto& entry : facts["provenance"]) {
+    line(entry[0].get<std::string>().c_str(), entry[1].get<std::string>());
+  }
+}
+
+}  // namespace
+
+void addInfo(CLI::App& program, int& exitCode) {
+  auto* command = program.add_subcommand("info", "say what an object is");
+  const auto object = std::make_shared<std::string>();
+  const auto json = std::make_shared<bool>(false);
+  command->add_option("OBJECT", *object, ".illum file or folder")->required();
+  command->add_flag("--json", *json, "as JSON");
+  command->callback([object, json, &exitCode] {
+    const auto facts = describe(Object::open(*object));
+    if (*json) {
+      fmt::print("{}\n", facts.dump(2));
+    } else {
+      print(*object, facts);
+    }
+    exitCode = kDone;
+  });
+}
+
+}  // namespace illum::cli
