@@ -1,0 +1,25 @@
+// The pictures of the report: a photograph, its relit twin and their difference, small enough to
+// embed.
+#pragma once
+
+#include "illum/picture.h"
+#include "study/comparison.h"
+
+namespace illum {
+
+/// Widest and highest embedded picture, in pixels.
+inline constexpr int kReportPictureSide = 640;
+/// What differences are multiplied by, so that they can be seen.
+inline constexpr int kErrorGain = 8;
+
+/// Three display-referred RGB pictures of one size.
+struct ReportPictures {
+  BytePicture photograph, relit;
+  BytePicture error;  ///< |difference of the encoded values| * kErrorGain, averaged over what a
+                      ///< pixel stands for
+};
+
+/// Reduced by a whole factor, in linear light, until neither side exceeds kReportPictureSide.
+ReportPictures reportPictures(const Comparison& comparison, int light);
+
+}  // namespace illum
