@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <utility>
 
-#include "build/pilot.h"
+#include "build/plan.h"
 #include "build/plane_row.h"
-#include "build/quantiser.h"
+#include "build/response_capture.h"
 #include "build/tile_writer.h"
 #include "core/memory.h"
 #include "encode/object_writer.h"
@@ -24,15 +24,6 @@ constexpr int kDefaultQuality = 75;
 constexpr int kDefaultSpeed = 6;
 constexpr int kPosterQuality = 85;
 
-BasisFamily familyFromName(const std::string& name) {
-  if (name == "learned") return BasisFamily::Learned;
-  if (name == "sh") return BasisFamily::SphericalHarmonics;
-  if (name == "hsh") return BasisFamily::HemisphericalHarmonics;
-  if (name == "dct") return BasisFamily::Cosine;
-  throw Error(Fault::Usage,
-              fmt::format("--basis: expected learned, sh, hsh or dct, found \"{}\"", name));
-}
-
 Response responseFor(const BuildOptions& options, Transfer transfer) {
   if (!options.response) {
     return transfer == Transfer::Display ? Response::Display : Response::Linear;
@@ -43,13 +34,6 @@ Response responseFor(const BuildOptions& options, Transfer transfer) {
                                           *options.response));
   }
   return display ? Response::Display : Response::Linear;
-}
-
-Curve curveFromName(const std::string& name) {
-  if (name == "linear") return Curve::Linear;
-  if (name == "signedSqrt") return Curve::SignedSqrt;
-  throw Error(Fault::Usage,
-              fmt::format("--curve: expected linear or signedSqrt, found \"{}\"", name));
 }
 
 // Leaves a build that the user stopped; what is done is kept.
@@ -72,60 +56,6 @@ class StoppableProgress final : public Progress {
   Progress& inner_;
   const std::function<bool()>& stop_;
 };
-
-// The samples in the domain in which the planes are fitted.
-class ResponseCapture final : public Capture {
- public:
-  ResponseCapture(const Capture& inner, Transfer transfer) : inner_(inner), transfer_(transfer) {}
-  Size size() const override { return inner_.size(); }
-  Transfer transfer() const override { return transfer_; }
-  const std::vector<LightFileEntry>& lights() const override { return inner_.lights(); }
-  bool hasMask() const override { return inner_.hasMask(); }
-  void read(int group, const Rectangle& rectangle, std::span<const int> lights,
-            std::span<float> samples) const override {
-    inner_.read(group, rectangle, lights, samples);
-    if (transfer_ == inner_.transfer()) return;
-    if (transfer_ == Transfer::Linear) {
-      for (float& s : samples) s = linearFromDisplay(s);
-    } else {
-      for (float& s : samples) s = displayFromLinear(s);
-    }
-  }
-  void readMask(int group, const Rectangle& rectangle, std::span<float> coverage) const override {
-    inner_.readMask(group, rectangle, coverage);
-  }
-  int bandRows() const override { return inner_.bandRows(); }
-  std::uint64_t residentBytes() const override { return inner_.residentBytes(); }
-  std::string fingerprint() const override { return inner_.fingerprint(); }
-
- private:
-  const Capture& inner_;
-  Transfer transfer_;
-};
-
-// Which lights are fitted and which are left out (--holdout K: lights K-1, 2K-1, …).
-struct LightChoice {
-  std::vector<int> used, heldOut;
-  std::vector<DirectionalLight> directions;  // of the used
-};
-
-LightChoice chooseLights(const Capture& capture, int holdout) {
-  LightChoice choice;
-  const auto& lights = capture.lights();
-  for (int i = 0; i < static_cast<int>(lights.size()); ++i) {
-    if (holdout > 0 && i % holdout == holdout - 1) {
-      choice.heldOut.push_back(i);
-    } else {
-      choice.used.push_back(i);
-      choice.directions.push_back(lights[static_cast<std::size_t>(i)].light);
-    }
-  }
-  if (choice.used.empty()) {
-    throw Error(Fault::Usage, fmt::format("--holdout {}: leaves none of the {} lights to fit",
-                                          holdout, lights.size()));
-  }
-  return choice;
-}
 
 void checkOptions(const BuildOptions& options) {
   if (options.holdout < 0) {
@@ -167,18 +97,6 @@ std::string fingerprintOf(const Capture& capture, const BuildOptions& o) {
       capture.fingerprint());
 }
 
-FitOptions fitOptionsFrom(const BuildOptions& options) {
-  FitOptions fit;
-  fit.family = familyFromName(options.basis);
-  fit.coefficients = options.coefficients;
-  fit.planes = options.planes;
-  fit.solidAngleWeights = options.solidAngleWeights;
-  fit.extension = options.extension;
-  fit.regularizer = options.regularizer;
-  fit.projection = options.projection;
-  return fit;
-}
-
 int levelsFor(Size size, int tile) {
   int levels = 1;
   for (int side = std::max(size.width, size.height); side > tile; side = (side + 1) / 2) ++levels;
@@ -210,31 +128,6 @@ Manifest manifestFor(const Capture& capture, const LightChoice& lights, const Bu
   manifest.generator = fmt::format("Illumigraph {}", kVersion);
   for (const auto& choice : fit.choices) manifest.provenance.emplace_back("fit", choice);
   return manifest;
-}
-
-// Chosen by the pilot before the whole is read.
-struct Plan {
-  Fit fit;
-  QuantiserChoice quantiser;
-};
-
-Plan planObject(const Capture& capture, const LightChoice& lights, const BuildOptions& options,
-                Response response, std::uint64_t memoryBytes, Progress& progress) {
-  const auto most = pilotPixels(static_cast<int>(lights.used.size()), memoryBytes);
-  const Pilot pilot = drawPilot(capture, lights.used, most, progress);
-  progress.begin("choosing the light basis", 1);
-  Plan plan;
-  plan.fit = fitBasis(lights.directions, statisticsOf(pilot), fitOptionsFrom(options));
-  std::vector<float> planes(static_cast<std::size_t>(plan.fit.basis.planes()) * pilot.pixels);
-  plan.fit.planes.apply(pilot.samples, pilot.pixels, planes);
-  QuantiserRequest request;
-  request.coding = codingFromName(options.coding);
-  request.bits = options.bits;
-  if (options.curve) request.curve = curveFromName(*options.curve);
-  plan.quantiser = chooseQuantiser(plan.fit, lights.directions, response, planes, pilot.pixels,
-                                   pilot.complete, request);
-  progress.end();
-  return plan;
 }
 
 // How many tiles may be coded side by side, or an Error with the least budget.

@@ -17,7 +17,9 @@ TEST(FillHidden, LeavesCoveredTexelsAlone) {
   const auto before = planes;
   fillHidden(planes, coverage, size);
   for (std::size_t i = 0; i < planes.size(); ++i) {
-    if (coverage[i % size.pixels()] > 0) EXPECT_EQ(planes[i], before[i]) << i;
+    if (coverage[i % size.pixels()] > 0) {
+      EXPECT_EQ(planes[i], before[i]) << i;
+    }
   }
 }
 

@@ -1,0 +1,130 @@
+// How long reading and fitting a stack takes, against its limits in the same run: decoding the same
+// JPEG files by libjpeg-turbo alone, and the same matrix products by sgemm alone, on the same
+// threads.
+//
+//   illum_fit_speed FOLDER [RUNS]        FOLDER: baseline JPEG photographs with a light file
+#include <cblas.h>
+#include <fmt/format.h>
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
+
+#include <jpeglib.h>
+#include <cstdio>
+
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+#include <vector>
+
+#include "build/plan.h"
+#include "build/plane_row.h"
+#include "core/files.h"
+#include "core/memory.h"
+#include "encode/encode_tile.h"
+
+namespace {
+
+using namespace illum;
+using Clock = std::chrono::steady_clock;
+
+double secondsSince(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+// Decodes into one row that is thrown away.
+void decodeAlone(const std::vector<std::byte>& file) {
+  jpeg_decompress_struct decoder;
+  jpeg_error_mgr errors;
+  decoder.err = jpeg_std_error(&errors);
+  jpeg_create_decompress(&decoder);
+  jpeg_mem_src(&decoder, reinterpret_cast<const unsigned char*>(file.data()), file.size());
+  jpeg_read_header(&decoder, TRUE);
+  decoder.out_color_space = JCS_RGB;
+  jpeg_start_decompress(&decoder);
+  std::vector<JSAMPLE> row(3 * decoder.output_width);
+  JSAMPROW rows[] = {row.data()};
+  while (decoder.output_scanline < decoder.output_height) jpeg_read_scanlines(&decoder, rows, 1);
+  jpeg_finish_decompress(&decoder);
+  jpeg_destroy_decompress(&decoder);
+}
+
+double timeDecoding(const std::filesystem::path& folder, const Capture& capture) {
+  const auto start = Clock::now();
+  const auto& lights = capture.lights();
+  tbb::parallel_for(std::size_t{0}, lights.size(), [&](std::size_t i) {
+    decodeAlone(readFile(folder / lights[i].name, std::uint64_t{1} << 32));
+  });
+  return secondsSince(start);
+}
+
+double timeProducts(const PlaneOperator& op, std::size_t pixels) {
+  constexpr std::size_t kPatch = 4096;
+  const auto rows = 3 * static_cast<std::size_t>(op.lights);
+  struct Buffers {
+    std::vector<float> samples, planes;
+  };
+  tbb::enumerable_thread_specific<Buffers> buffers;
+  const auto start = Clock::now();
+  tbb::parallel_for(std::size_t{0}, (pixels + kPatch - 1) / kPatch, [&](std::size_t) {
+    auto& b = buffers.local();
+    b.samples.resize(rows * kPatch, 0.5f);
+    b.planes.resize(static_cast<std::size_t>(op.planes) * kPatch);
+    cblas_sgemm(CblasRowMajor, CblasNoTrans, CblasNoTrans, op.planes, static_cast<int>(kPatch),
+                static_cast<int>(rows), 1.0f, op.matrix.data(), static_cast<int>(rows),
+                b.samples.data(), static_cast<int>(kPatch), 0.0f, b.planes.data(),
+                static_cast<int>(kPatch));
+  });
+  return secondsSince(start);
+}
+
+struct WholeWay {
+  double seconds = 0;
+  Fit fit;
+};
+
+// Everything of a build but the coding of tiles.
+WholeWay readAndFit(const std::filesystem::path& folder, std::uint64_t memoryBytes) {
+  Progress silent;
+  const auto start = Clock::now();
+  PhotographOptions photographs;
+  photographs.memoryBytes = memoryBytes * 6 / 10;
+  const auto capture = openPhotographs(folder, photographs, silent);
+  const auto lights = chooseLights(*capture, 0);
+  const Plan plan = planObject(*capture, lights, {}, Response::Display, memoryBytes / 4, silent);
+  Manifest manifest;
+  manifest.size = capture->size();
+  for (int row = 0; row < manifest.tilesDown(0); ++row) {
+    fitRow(*capture, lights.used, plan.fit.planes, manifest, row);
+  }
+  return {secondsSince(start), plan.fit};
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc < 2) {
+    fmt::print(stderr, "usage: illum_fit_speed FOLDER [RUNS]\n");
+    return 2;
+  }
+  const std::filesystem::path folder = argv[1];
+  const int runs = argc > 2 ? std::atoi(argv[2]) : 3;
+  const std::uint64_t memoryBytes = machineMemoryBytes() / 4;
+  Progress silent;
+  const auto capture = openPhotographs(folder, {}, silent);
+  openblas_set_num_threads(1);
+  fmt::print("{} photographs of {} x {}\n", capture->lights().size(), capture->size().width,
+             capture->size().height);
+  // One round untimed, so that files are in the page cache for all alike.
+  timeDecoding(folder, *capture);
+  for (int run = 0; run < runs; ++run) {
+    const WholeWay whole = readAndFit(folder, memoryBytes);
+    const double decoding = timeDecoding(folder, *capture);
+    const double products = timeProducts(whole.fit.planes, capture->size().pixels());
+    fmt::print(
+        "decoding alone {:.2f} s, sgemm alone {:.2f} s ({} planes), read and fit {:.2f} s: "
+        "ratio {:.3f}\n",
+        decoding, products, whole.fit.planes.planes, whole.seconds,
+        whole.seconds / (decoding + products));
+  }
+  return 0;
+}
