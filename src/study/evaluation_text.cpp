@@ -94,8 +94,11 @@ std::string printableName(std::string_view name, std::size_t limit) {
     const auto byte = static_cast<unsigned char>(character);
     text += byte < 0x20 || byte == 0x7f ? '?' : character;
   }
-  if (text.size() > limit) text = text.substr(0, limit - 3) + "...";
-  return text;
+  if (text.size() <= limit) return text;
+  // Not within a character: UTF-8 continuation bytes are 10xxxxxx.
+  std::size_t end = limit - 3;
+  while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0) == 0x80) --end;
+  return text.substr(0, end) + "...";
 }
 
 std::vector<std::size_t> worstFirst(const Evaluation& evaluation) {

@@ -1,1 +1,107 @@
+#include "study/photograph.h"
 
+#include <gtest/gtest.h>
+
+#include "illum/colour.h"
+#include "study/fake_capture_for_test.h"
+
+namespace illum {
+namespace {
+
+/// Every byte once, in a 16x16 picture; channels differ.
+int byteAt(int light, int x, int y, int channel) {
+  return (x + 16 * y + 7 * channel + 3 * light) % 256;
+}
+
+BytePicture wholeBytes(const Capture& capture, int light, const BytePicture& coverage = {}) {
+  BytePicture whole(capture.size(), 3);
+  readPhotograph(capture, light, coverage, [&](const PhotographBand& band) {
+    for (int y = 0; y < band.rows.height; ++y)
+      std::copy(band.bytes.row(y).begin(), band.bytes.row(y).end(),
+                whole.row(band.rows.y + y).begin());
+  });
+  return whole;
+}
+
+TEST(Photograph, DisplayReferredBytesComeBackExactly) {
+  const FakeCapture capture({16, 16}, Transfer::Display, ringOfLights(2),
+                            [](int light, int x, int y, int c) {
+                              return static_cast<float>(byteAt(light, x, y, c)) / 255;
+                            });
+  for (const int light : {0, 1}) {
+    const BytePicture whole = wholeBytes(capture, light);
+    for (int y = 0; y < 16; ++y)
+      for (int x = 0; x < 16; ++x)
+        for (int c = 0; c < 3; ++c)
+          ASSERT_EQ(whole.at(x, y, c), byteAt(light, x, y, c)) << light << " " << x << " " << y;
+  }
+}
+
+TEST(Photograph, DisplayReferredBytesSurviveTheDivisionByIntensity) {
+  // What a capture does with an exposure per light: divided in linear light, encoded again.
+  const LinearRgb intensity{0.37f, 1.9f, 0.71f};
+  const FakeCapture capture(
+      {16, 16}, Transfer::Display, ringOfLights(1, intensity), [&](int light, int x, int y, int c) {
+        const float factor[] = {intensity.r, intensity.g, intensity.b};
+        const float linear = linearFromDisplay(static_cast<float>(byteAt(light, x, y, c)) / 255);
+        return displayFromLinear(linear / factor[c]);
+      });
+  const BytePicture whole = wholeBytes(capture, 0);
+  for (int y = 0; y < 16; ++y)
+    for (int x = 0; x < 16; ++x)
+      for (int c = 0; c < 3; ++c) ASSERT_EQ(whole.at(x, y, c), byteAt(0, x, y, c)) << x << " " << y;
+}
+
+TEST(Photograph, LinearSamplesAreShownTimesTheirIntensity) {
+  const FakeCapture capture({4, 4}, Transfer::Linear, ringOfLights(1, {2, 1, 0.5f}),
+                            [](int, int, int, int) { return 0.25f; });
+  readPhotograph(capture, 0, {}, [](const PhotographBand& band) {
+    EXPECT_EQ(band.linear.at(1, 1, 0), 0.5f);
+    EXPECT_EQ(band.linear.at(1, 1, 2), 0.125f);
+    EXPECT_EQ(band.bytes.at(1, 1, 0), displayByteFromLinear(0.5f));
+    EXPECT_EQ(band.bytes.at(1, 1, 1), displayByteFromLinear(0.25f));
+  });
+}
+
+TEST(Photograph, CoverageMultipliesInLinearLight) {
+  const FakeCapture capture({3, 1}, Transfer::Display, ringOfLights(1),
+                            [](int, int, int, int) { return 200.0f / 255; });
+  BytePicture coverage({3, 1}, 1);
+  coverage.at(0, 0, 0) = 255;
+  coverage.at(1, 0, 0) = 51;
+  const BytePicture whole = wholeBytes(capture, 0, coverage);
+  EXPECT_EQ(whole.at(0, 0, 0), 200);
+  EXPECT_EQ(whole.at(1, 0, 1), displayByteFromLinear(0.2f * linearFromDisplay(200.0f / 255)));
+  EXPECT_EQ(whole.at(2, 0, 2), 0);
+}
+
+TEST(Photograph, BandsCoverEveryRowOnceFromTheTop) {
+  for (const int bandRows : {1, 3, 8, 13, 50}) {
+    FakeCapture capture({5, 13}, Transfer::Linear, ringOfLights(1),
+                        [](int, int x, int y, int) { return static_cast<float>(y * 5 + x) / 65; });
+    capture.withBandRows(bandRows);
+    int next = 0;
+    readPhotograph(capture, 0, {}, [&](const PhotographBand& band) {
+      EXPECT_EQ(band.rows, (Rectangle{0, next, 5, std::min(bandRows, 13 - next)}));
+      EXPECT_EQ(band.linear.at(2, 0, 0), static_cast<float>(next * 5 + 2) / 65);
+      next = band.rows.bottom();
+    });
+    EXPECT_EQ(next, 13) << bandRows;
+    EXPECT_EQ(capture.backwardReads(), 0);
+  }
+}
+
+TEST(Photograph, TheMaskIsReadAsBytes) {
+  FakeCapture capture({300, 40}, Transfer::Linear, ringOfLights(1),
+                      [](int, int, int, int) { return 0.0f; });
+  EXPECT_TRUE(coverageOf(capture).empty());
+  capture.withBandRows(7).withMask(
+      [](int x, int y) { return static_cast<float>((x + y) % 256) / 255; });
+  const BytePicture coverage = coverageOf(capture);
+  ASSERT_EQ(coverage.size(), capture.size());
+  for (int y = 0; y < 40; ++y)
+    for (int x = 0; x < 300; ++x) ASSERT_EQ(coverage.at(x, y, 0), (x + y) % 256);
+}
+
+}  // namespace
+}  // namespace illum
