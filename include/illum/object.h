@@ -36,6 +36,8 @@ class Object {
   PlaneCodes planeTile(int group, int level, int x, int y) const;
   /// 8-bit coverage of one tile; empty if the object has no mask.
   BytePicture maskTile(int group, int level, int x, int y) const;
+  /// What is wrong with the archive or folder itself, beyond what open() refuses: one sentence each.
+  std::vector<std::string> containerFaults() const;
 
  private:
   struct State;

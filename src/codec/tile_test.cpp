@@ -1,1 +1,3 @@
+#include "codec/tile.h"
 
+#include <gtest/gtest.h>

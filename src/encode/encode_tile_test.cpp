@@ -1,1 +1,3 @@
+#include "encode/encode_tile.h"
 
+#include <gtest/gtest.h>

@@ -1,7 +1,9 @@
-// Writing an object: OUT.partial/ tile by tile, then packed and renamed (docs/format.md, "Writing").
+// Writing an object: OUT.partial/ tile by tile, then packed and renamed (docs/format.md,
+// "Writing").
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <span>
 #include <string>
@@ -11,14 +13,16 @@ namespace illum {
 enum class ObjectForm { Archive, Folder };
 
 /// Collects the entries of one object in `OUT.partial/` and turns them into OUT at the end.
-/// Every entry is written atomically; a killed writer leaves a partial folder that a later one with the
-/// same `fingerprint` can resume. Entry names are checked. Thread safe.
+/// Every entry is written atomically; a killed writer leaves a partial folder that a later one with
+/// the same `fingerprint` can resume. Entry names are checked. add() and has() are thread safe.
 class ObjectWriter {
  public:
   /// `fingerprint`: text that identifies inputs and settings; kept in the partial folder.
-  /// If the partial folder exists: with `resume` and an equal fingerprint its entries are kept; with
-  /// `resume` and another fingerprint, Error; without `resume` it is emptied. Throws Error
-  /// (Fault::Input) if `out` exists and `force` is false; Fault::Machine if the folder cannot be written.
+  /// If the partial folder exists: with `resume` and an equal fingerprint its entries are kept;
+  /// with `resume` and another fingerprint, Error; without `resume` it is emptied, unless it holds
+  /// what no ObjectWriter put there. A `resume` without a partial folder begins anew. Throws Error
+  /// (Fault::Input) if `out` exists and `force` is false, or is a folder that holds no object;
+  /// Fault::Machine if the folder cannot be written or another process is writing it.
   ObjectWriter(std::filesystem::path out, ObjectForm form, std::string fingerprint, bool resume,
                bool force);
   /// Removes the partial folder unless finish() succeeded or keepPartial() was called.
@@ -27,18 +31,27 @@ class ObjectWriter {
   ObjectWriter& operator=(const ObjectWriter&) = delete;
 
   bool has(const std::string& entry) const;  ///< finished already (by an earlier, killed run)
+  /// Replaces the entry if it exists. A machine's fault here keeps the partial folder.
   void add(const std::string& entry, std::span<const std::byte> bytes);
   /// For signals and machine faults: what is done stays for --resume.
   void keepPartial();
-  /// Where scratch files may lie; removed at finish.
+  /// Where scratch files may lie; removed at finish, and emptied when a writer resumes.
   std::filesystem::path scratchFolder() const;
-  /// Packs in canonical order, flushes, renames. Returns the object's bytes.
+  /// Packs in canonical order, flushes, renames. Returns the object's bytes. Throws Error if an
+  /// entry that object.json speaks of is missing; entries that it does not speak of are left out.
+  /// After a machine's fault the partial folder stays.
   std::uint64_t finish();
 
  private:
+  void createPartial(const std::string& fingerprint, bool resume);
+  void lock();
+  std::uint64_t finishArchive();
+  std::uint64_t finishFolder();
+
   std::filesystem::path out_, partial_;
   ObjectForm form_;
   bool force_, keep_ = false, finished_ = false;
+  int lock_ = -1;
 };
 
 }  // namespace illum

@@ -2,7 +2,8 @@
 #pragma once
 
 #include <array>
-#include <optional>
+#include <cstdint>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -27,7 +28,8 @@ enum class Curve {
   SignedSqrt,  ///< s = offset_k + step * code; value = sign(s) s^2
 };
 
-/// A rigid transform of group coordinates to object coordinates: row-major 3x3 rotation, translation.
+/// A rigid transform of group coordinates to object coordinates: row-major 3x3 rotation,
+/// translation.
 struct RigidTransform {
   std::array<double, 9> rotation{1, 0, 0, 0, 1, 0, 0, 0, 1};
   Vector3 translation;
@@ -35,11 +37,12 @@ struct RigidTransform {
 };
 
 struct BasisEntry {
-  std::string name;         ///< "sh", "hsh", "dct", "learned": for people; readers need only the table
-  int coefficients = 0;     ///< per channel (separable), or scalar planes (full)
+  std::string name;      ///< "sh", "hsh", "dct", "learned": for people; readers need only the table
+  int coefficients = 0;  ///< per channel (separable), or scalar planes (full)
   BasisColour colour;
   std::uint64_t tableOffset = 0, tableBytes = 0;  ///< where in basis.bin
-  /// Named coefficients C = mixing * planes (row-major, coefficients x coefficients); empty if none.
+  /// Named coefficients C = mixing * planes (row-major, coefficients x coefficients); empty if
+  /// none.
   std::vector<double> mixing;
 };
 
@@ -57,10 +60,11 @@ struct CodingEntry {
   Curve curve = Curve::Linear;
   double step = 1;              ///< common to all planes
   std::vector<double> offsets;  ///< one per stored plane
-  /// Which basis function each stored plane carries. Several may carry the same one: their values add.
-  /// So a plane whose range exceeds what the bits hold at the common step is stored as two or more.
+  /// Which basis function each stored plane carries. Several may carry the same one: their values
+  /// add. So a plane whose range exceeds what the bits hold at the common step is stored as two or
+  /// more.
   std::vector<int> functions;
-  int quality = 0;              ///< what the writer was asked for; informative
+  int quality = 0;  ///< what the writer was asked for; informative
 };
 
 struct Manifest {
@@ -78,7 +82,8 @@ struct Manifest {
   std::vector<LightFileEntry> lights;  ///< that the object was made from, provenance
   std::vector<int> heldOut;            ///< indices into `lights` that were left out of the fit
   std::string generator;               ///< program and version
-  std::vector<std::pair<std::string, std::string>> provenance;  ///< settings and figures, for people
+  std::vector<std::pair<std::string, std::string>>
+      provenance;  ///< settings and figures, for people
 
   int planes() const { return static_cast<int>(coding.offsets.size()); }
   Size sizeAt(int level) const;
@@ -87,11 +92,29 @@ struct Manifest {
   Rectangle tileRectangle(int level, int x, int y) const;
 };
 
+/// Limits of version 1.0, held on writing and on reading (docs/format.md, "object.json").
+inline constexpr int kMaxSide = 1 << 20;
+inline constexpr int kMinTile = 64, kMaxTile = 1360;
+inline constexpr int kMaxLevels = 21;
+inline constexpr int kMaxGroups = 1024, kMaxBases = 1024;
+inline constexpr int kMaxLights = 100'000;
+inline constexpr std::uint64_t kMaxTiles = std::uint64_t{1} << 22;  ///< of all groups and levels
+
+/// Deterministic; doubles round-trip exactly; bytes of names that are not UTF-8 become U+FFFD.
+/// Throws Error (Fault::Input) naming the field for anything that manifestFromText would refuse,
+/// numbers that are not finite among it.
 std::string textOf(const Manifest& manifest);
-/// Untrusted input is safe: every number is checked against the limits in docs/format.md before anything
-/// is sized by it. Unknown fields are skipped; a newer major version is refused. Throws Error naming
-/// `source` and the field.
+/// Untrusted input is safe: every number is checked against the limits in docs/format.md before
+/// anything is sized by it. Unknown fields are skipped; a newer major version is refused. Throws
+/// Error naming `source` and the field.
 Manifest manifestFromText(std::string_view json, const std::string& source);
+
+/// What fields must be to each other, beyond each one's own limits. Throws Error naming the field.
+void checkConsistency(const Manifest& manifest);
+
+/// Every entry that an object with this manifest must have, in canonical order.
+void forEachRequiredEntry(const Manifest& manifest,
+                          const std::function<void(const std::string&)>& visit);
 
 /// "planes/<group>/<level>/<x>_<y>.avif"; "mask/<group>/<level>/<x>_<y>.png"
 std::string planeTileName(const Manifest&, int group, int level, int x, int y);

@@ -1,1 +1,3 @@
+#include "object/manifest.h"
 
+#include <gtest/gtest.h>

@@ -1,0 +1,41 @@
+// A tiny object for tests, fuzzers' seeds and the format's worked example: a wavy surface of two
+// levels under a separable basis of four smooth functions.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "codec/tile.h"
+#include "encode/object_writer.h"
+#include "object/manifest.h"
+
+namespace illum {
+
+struct SampleOptions {
+  Coding coding = Coding::Png;
+  int bits = 8;
+  int quality = 80;
+  Size size{100, 70};
+  int tile = 64;
+  bool mask = true;
+  bool poster = true;
+};
+
+/// Without the places of its tables, which sampleEntries fills in.
+Manifest sampleManifest(const SampleOptions& options);
+
+/// The codes of one tile: smooth, different in every plane, rounded to `bits`.
+PlaneCodes sampleCodes(const Manifest& manifest, int level, int x, int y);
+BytePicture sampleMask(const Manifest& manifest, int level, int x, int y);
+
+using Entries = std::vector<std::pair<std::string, std::vector<std::byte>>>;
+/// Every entry in canonical order.
+Entries sampleEntries(const SampleOptions& options);
+
+/// Writes the entries as an object.
+void writeSampleObject(const std::filesystem::path& out, ObjectForm form,
+                       const SampleOptions& options);
+
+}  // namespace illum

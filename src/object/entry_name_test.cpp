@@ -1,0 +1,3 @@
+#include "object/entry_name.h"
+
+#include <gtest/gtest.h>

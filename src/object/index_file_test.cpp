@@ -1,0 +1,3 @@
+#include "object/index_file.h"
+
+#include <gtest/gtest.h>
