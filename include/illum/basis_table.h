@@ -82,6 +82,8 @@ class BasisTable {
   friend bool operator==(const BasisTable& a, const BasisTable& b);
 
  private:
+  void interpolate(ChartPoint p, std::span<float> out) const;
+
   LightDomain domain_ = LightDomain::Hemisphere;
   int resolution_ = 0, columns_ = 0;
   std::vector<float> values_, southPole_;

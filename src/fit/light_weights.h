@@ -18,14 +18,15 @@ struct LitCap {
   LightDomain domain() const;
 };
 
-/// The cap that the lights cover: up to the largest theta plus half the mean distance of a light to its
-/// nearest neighbour; at most the horizon if no light is below it; the whole sphere if what remains
-/// around the south pole is no larger than the lights' own spacing. One light alone lights the
-/// hemisphere (or the sphere). At least one light.
+/// The cap that the lights cover: up to the largest theta plus half the mean distance of a light to
+/// its nearest neighbour; at most the horizon if no light is below it; the whole sphere if what
+/// remains around the south pole is no larger than the lights' own spacing. One light alone lights
+/// the hemisphere (or the sphere). At least one light.
 LitCap litCapOf(std::span<const Direction> lights);
 
-/// weights[i]: area of the spherical Voronoi cell of lights[i] within the cap, in steradians; their sum
-/// is cap.solidAngle(). Lights in the same direction share their cell equally. At least one light.
+/// weights[i]: area of the spherical Voronoi cell of lights[i] within the cap, in steradians; their
+/// sum is cap.solidAngle(). Lights in the same direction share their cell equally. At least one
+/// light.
 std::vector<double> solidAngleWeights(std::span<const Direction> lights, LitCap cap);
 
 /// One node of a quadrature rule over directions.
@@ -34,8 +35,8 @@ struct WeightedDirection {
   double weight = 0;  ///< steradians
 };
 
-/// Gauss-Legendre in cos(theta) times equal steps in phi over the cap: exact for spherical harmonics up to
-/// degree 2 * rings - 1.
+/// Gauss-Legendre in cos(theta) times equal steps in phi over the cap: exact for spherical
+/// harmonics up to degree 2 * rings - 1.
 std::vector<WeightedDirection> capQuadrature(LitCap cap, int rings);
 
 /// capQuadrature over litCapOf(lights), fine enough for every basis in use (48 rings).

@@ -1,1 +1,72 @@
+#include <cassert>
+#include <cmath>
+#include <numbers>
+#include <vector>
 
+#include "fit/bases/families.h"
+
+namespace illum {
+namespace {
+
+// Frequencies of a product of cosines on the square.
+struct Frequency {
+  int i, j;
+};
+
+// Zonal selection: the pairs of lowest i + j, those of lowest i first among equals.
+std::vector<Frequency> zone(int count) {
+  std::vector<Frequency> frequencies;
+  for (int sum = 0; static_cast<int>(frequencies.size()) < count; ++sum) {
+    for (int i = 0; i <= sum && static_cast<int>(frequencies.size()) < count; ++i) {
+      frequencies.push_back({i, sum - i});
+    }
+  }
+  return frequencies;
+}
+
+// Wong et al. 1997, section 4.2: c_i c_j cos(pi i x) cos(pi j y) on the stereographic square, c_0 =
+// 1, else sqrt(2): orthonormal on the square (not with respect to solid angle). On the sphere each
+// square has functions of its own, which are 0 on the other one.
+class ChartCosines final : public AnalyticBasis {
+ public:
+  ChartCosines(int coefficients, LightDomain domain)
+      : coefficients_(coefficients), domain_(domain), upper_(zone(upperCount())) {}
+
+  std::string_view name() const override { return "dct"; }
+  int coefficients() const override { return coefficients_; }
+  LightDomain domain() const override { return domain_; }
+
+  void evaluate(Direction d, std::span<double> values) const override {
+    evaluateOnChart(chartFromDirection(d), values);
+  }
+
+  void evaluateOnChart(ChartPoint p, std::span<double> values) const override {
+    assert(values.size() == static_cast<std::size_t>(coefficients_));
+    for (double& value : values) value = 0;
+    const std::size_t upper = static_cast<std::size_t>(upperCount());
+    const std::span<double> own = p.square == 0 ? values.first(upper) : values.subspan(upper);
+    for (std::size_t k = 0; k < own.size(); ++k) {
+      own[k] = cosine(upper_[k].i, p.x) * cosine(upper_[k].j, p.y);
+    }
+  }
+
+ private:
+  int upperCount() const {
+    return domain_ == LightDomain::Sphere ? (coefficients_ + 1) / 2 : coefficients_;
+  }
+  static double cosine(int frequency, double x) {
+    return frequency == 0 ? 1 : std::numbers::sqrt2 * std::cos(std::numbers::pi * frequency * x);
+  }
+
+  int coefficients_;
+  LightDomain domain_;
+  std::vector<Frequency> upper_;  ///< the lower square's are a prefix of these
+};
+
+}  // namespace
+
+std::unique_ptr<AnalyticBasis> chartCosines(int coefficients, LightDomain domain) {
+  return std::make_unique<ChartCosines>(coefficients, domain);
+}
+
+}  // namespace illum

@@ -11,7 +11,8 @@
 
 namespace illum {
 
-/// Scalar functions of a light's direction, the same for every colour channel. Immutable, thread safe.
+/// Scalar functions of a light's direction, the same for every colour channel. Immutable, thread
+/// safe.
 class AnalyticBasis {
  public:
   virtual ~AnalyticBasis() = default;
@@ -20,19 +21,21 @@ class AnalyticBasis {
   virtual int coefficients() const = 0;
   virtual LightDomain domain() const = 0;
 
-  /// values[k] = k-th function at `d`; `values` has coefficients() entries. A basis of the hemisphere is
-  /// defined for d.z() >= 0 only; what lies below is the table's (and the extension's) affair.
+  /// values[k] = k-th function at `d`; `values` has coefficients() entries. A basis of the
+  /// hemisphere is defined for d.z() >= 0 only; what lies below is the table's (and the
+  /// extension's) affair.
   virtual void evaluate(Direction d, std::span<double> values) const = 0;
 
-  /// The same on the chart, continued smoothly past the equator of the point's own square: what a table
-  /// needs for its guard ring.
+  /// The same on the chart, continued smoothly past the equator of the point's own square: what a
+  /// table needs for its guard ring.
   virtual void evaluateOnChart(ChartPoint p, std::span<double> values) const;
 };
 
 /// Functions in the order that `coefficients` counts them. SH and HSH: (l, m) for l = 0, 1, … and
-/// m = -l … l, so `coefficients` must be (l_max + 1)^2 <= 81. DCT: any number up to 256; on the sphere
-/// the first half (rounded up) belongs to the upper square and the rest to the lower. Throws Error
-/// (Fault::Usage) naming the allowed numbers, and for HSH on the sphere and BasisFamily::Learned.
+/// m = -l … l, so `coefficients` must be (l_max + 1)^2 <= 81. DCT: any number up to 256; on the
+/// sphere the first half (rounded up) belongs to the upper square and the rest to the lower. Throws
+/// Error (Fault::Usage) naming the allowed numbers, and for HSH on the sphere and
+/// BasisFamily::Learned.
 std::unique_ptr<AnalyticBasis> analyticBasis(BasisFamily family, int coefficients,
                                              LightDomain domain = LightDomain::Hemisphere);
 
