@@ -1,4 +1,4 @@
-"""Drives the built `illum`. ILLUM_BIN names another one, ILLUM_SHARED another folder of test data."""
+"""Drives the built `illum`. ILLUM_BIN names another binary, ILLUM_SHARED another data folder."""
 
 import dataclasses
 import os
@@ -13,7 +13,8 @@ import pytest
 import stacks
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-BINARY = pathlib.Path(os.environ.get("ILLUM_BIN", ROOT / "build/release/tools/illum/illum")).resolve()
+RELEASE = ROOT / "build/release/tools/illum/illum"
+BINARY = pathlib.Path(os.environ.get("ILLUM_BIN", RELEASE)).resolve()
 SHARED = pathlib.Path(os.environ.get("ILLUM_SHARED", ROOT.parent / "shared"))
 
 # A sanitizer's finding must not look like the program's own exit code 1.
@@ -57,7 +58,8 @@ class Illum:
     def __call__(self, *arguments, expect=0, cwd=None, timeout=300, wrapper=(), **popen):
         out_file, err_file = self.folder / "stdout", self.folder / "stderr"
         with open(out_file, "wb") as out, open(err_file, "wb") as err:
-            process = self.start(*arguments, cwd=cwd, wrapper=wrapper, stdout=out, stderr=err, **popen)
+            process = self.start(*arguments, cwd=cwd, wrapper=wrapper, stdout=out, stderr=err,
+                                 **popen)
             code, peak = wait_for(process, timeout)
         outcome = Outcome(code, out_file.read_text(errors="replace"),
                           err_file.read_text(errors="replace"), peak)
@@ -145,7 +147,7 @@ def lossless(stack, tmp_path_factory):
 
 
 def shared_data(*parts):
-    """A path of the shared test data; skips without it, or fails where ILLUM_REQUIRE_SHARED is set."""
+    """A path of the shared data. Without it: skips, or fails if ILLUM_REQUIRE_SHARED is set."""
     path = SHARED.joinpath(*parts)
     if not path.exists():
         sentence = f"{path} is not there: the shared test data is missing (ILLUM_SHARED names it)"

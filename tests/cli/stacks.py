@@ -1,7 +1,8 @@
 """Small stacks of photographs with a known scene, so that any light's picture can be computed.
 
-A ball lies half sunk in a coloured plane; it shades by Lambert's law, has a soft highlight, and throws
-the exact shadow of a parallel light. x right, y up, z toward the viewer; the picture's longer side is 2.
+A ball lies half sunk in a coloured plane; it shades by Lambert's law, has a soft highlight, and
+throws the exact shadow of a parallel light. x right, y up, z toward the viewer; the picture's
+longer side is 2.
 """
 
 import math
@@ -38,9 +39,10 @@ def render(light, width=WIDTH, height=HEIGHT):
     r2 = x * x + y * y
     on_ball = r2 < BALL_RADIUS**2
     z = np.where(on_ball, np.sqrt(np.maximum(BALL_RADIUS**2 - r2, 0)), 0)
-    normal = np.where(on_ball, np.stack([x, y, z]) / BALL_RADIUS, np.array([0, 0, 1.0])[:, None, None])
+    flat = np.array([0, 0, 1.0])[:, None, None]
+    normal = np.where(on_ball, np.stack([x, y, z]) / BALL_RADIUS, flat)
 
-    # A ray from the plane toward the light meets the ball where its distance to the axis falls short.
+    # A ray from the plane toward the light meets the ball if it passes the centre closely enough.
     along = x * light[0] + y * light[1]
     shadowed = ~on_ball & (along < 0) & (r2 - along**2 < BALL_RADIUS**2)
     lambert = np.clip(np.tensordot(light, normal, 1), 0, None) * ~shadowed
@@ -85,7 +87,8 @@ def write_stack(folder, count=28, width=WIDTH, height=HEIGHT, suffix=".png", **s
     lights = list(directions(count))
     names = [f"photo {k:02d}{suffix}" for k in range(count)]
     for name, light in zip(names, lights):
-        Image.fromarray(display_bytes(render(light, width, height))).save(folder / name, **save_options)
+        picture = Image.fromarray(display_bytes(render(light, width, height)))
+        picture.save(folder / name, **save_options)
     write_light_file(folder, names, lights)
     return lights
 

@@ -33,7 +33,7 @@ from conftest import BINARY, ROOT
     ["relight", "OBJECT", "--light", "0,0,nan", "-o", "OUT.png"],
     ["relight", "OBJECT", "--light", "0,0,1,1", "-o", "OUT.png"],
     ["relight", "OBJECT", "--light", "a,b,c", "-o", "OUT.png"],
-    ["relight", "OBJECT", "--light", "0,0,1,-1,1,1", "-o", "OUT.png"],
+    ["relight", "OBJECT", "--light", "0,0,1,nan,1,1", "-o", "OUT.png"],
     ["relight", "OBJECT", "--light", "0,0,1", "-o", "OUT.gif"],
     ["relight", "OBJECT", "--light", "0,0,1", "--level", "9", "-o", "OUT.png"],
     ["relight", "OBJECT", "--light", "0,0,1", "--exposure", "bright", "-o", "OUT.png"],
@@ -61,8 +61,9 @@ def test_every_command_is_in_the_help(illum):
 
 
 def test_version(illum):
-    declared = re.search(r"project\(Illumigraph VERSION ([\d.]+)", (ROOT / "CMakeLists.txt").read_text())
-    assert declared.group(1) in illum("--version").stdout
+    project = (ROOT / "CMakeLists.txt").read_text()
+    declared = re.search(r"project\(Illumigraph VERSION ([\d.]+)", project).group(1)
+    assert declared in illum("--version").stdout
 
 
 def test_nothing_on_stderr_without_a_terminal(illum, stack, tmp_path):
@@ -94,7 +95,8 @@ def run_on_terminal(*arguments):
 
 def test_progress_on_a_terminal(tmp_path):
     stacks.write_stack(tmp_path / "p", count=24, width=900, height=700)
-    code, shown = run_on_terminal("build", tmp_path / "p", "-o", tmp_path / "o.illum", "--planes", 18)
+    code, shown = run_on_terminal("build", tmp_path / "p", "-o", tmp_path / "o.illum",
+                                  "--planes", 18)
     assert code == 0, shown
     assert "\r" in shown and re.search(r"\d+ ?%", shown), shown
 
