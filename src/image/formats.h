@@ -1,0 +1,40 @@
+// One decoder and one encoder for each picture format, in memory. Decoders take untrusted bytes;
+// their errors begin with `source`.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <vector>
+
+#include "illum/picture.h"
+
+namespace illum {
+
+/// Samples as a PNG or JPEG stores them, palettes and transparent colours expanded: 1, 3 or 4
+/// channels, alpha straight. One of the two pictures is empty.
+struct StoredPicture {
+  BytePicture bytes;
+  PictureOf<std::uint16_t> words;  ///< where there are 16 bits a sample
+  bool linear = false;             ///< else sRGB
+};
+
+StoredPicture decodePng(std::span<const std::byte> bytes, const std::filesystem::path& source);
+StoredPicture decodeJpeg(std::span<const std::byte> bytes, const std::filesystem::path& source);
+/// Linear Rec.709.
+Picture decodeExr(std::span<const std::byte> bytes, const std::filesystem::path& source);
+
+/// float32; every sample as it is.
+std::vector<std::byte> encodeExr(const Picture& linear);
+
+inline constexpr int kMaxPictureSide = 65535;
+inline constexpr std::uint64_t kMaxPicturePixels = 1ULL << 30;
+
+/// Throws Error unless both sides are in 1 … kMaxPictureSide, the picture has at most
+/// kMaxPicturePixels, and a file of `fileBytes` can hold its samples, of which a format packs at
+/// most `samplesPerByte` into one byte. So that no memory is asked for on a header's word alone.
+void checkPictureSize(const std::filesystem::path& source, std::int64_t width, std::int64_t height,
+                      int channels, std::uint64_t fileBytes, double samplesPerByte);
+
+}  // namespace illum
