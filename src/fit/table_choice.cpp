@@ -1,0 +1,61 @@
+#include "fit/table_choice.h"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cmath>
+
+namespace illum {
+namespace {
+
+constexpr std::array kResolutions{17, 21, 25, 33, 49};
+
+Matrix exactValues(const TableRequest& request) {
+  Matrix exact(request.nodes.size(), request.columns);
+  std::vector<double> row(static_cast<std::size_t>(request.columns));
+  for (std::size_t i = 0; i < request.nodes.size(); ++i) {
+    request.values(chartFromDirection(request.nodes[i]), row);
+    for (int c = 0; c < request.columns; ++c) exact(i, c) = row[c];
+  }
+  return exact;
+}
+
+double pictureError(const BasisTable& table, const TableRequest& request, const Matrix& exact) {
+  std::vector<float> row(static_cast<std::size_t>(request.columns));
+  double sum = 0;
+  for (std::size_t i = 0; i < request.nodes.size(); ++i) {
+    table.evaluate(request.nodes[i], row);
+    for (int c = 0; c < request.columns; ++c) {
+      const double error = (row[c] - exact(i, c)) * request.planeRms[c];
+      sum += error * error;
+    }
+  }
+  return sum / static_cast<double>(request.nodes.size());
+}
+
+// Equal shares of half the budget; a column that nothing is multiplied with may be anything.
+std::vector<double> storedErrors(const TableRequest& request) {
+  const double share = std::sqrt(0.5 * request.budget / request.columns);
+  const double least = std::max(1e-6 * request.planeRms.maxCoeff(), 1e-12);
+  std::vector<double> errors;
+  for (const double rms : request.planeRms) errors.push_back(share / std::max(rms, least));
+  return errors;
+}
+
+}  // namespace
+
+BasisTable chooseTable(const TableRequest& request) {
+  assert(request.planeRms.size() == request.columns && request.budget > 0);
+  const Matrix exact = exactValues(request);
+  BasisTable table;
+  for (const int resolution : kResolutions) {
+    table = BasisTable(request.domain, resolution, request.columns);
+    table.fillChart(request.values);
+    if (pictureError(table, request, exact) <= request.budget) break;
+  }
+  table.setStoredErrors(storedErrors(request));
+  table.encode();
+  return table;
+}
+
+}  // namespace illum
