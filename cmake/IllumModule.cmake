@@ -7,6 +7,10 @@
 
 add_library(illum_flags INTERFACE)
 target_compile_options(illum_flags INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor)
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
+  # False alarms in std::string's own operator+ (GCC bug 105651).
+  target_compile_options(illum_flags INTERFACE -Wno-restrict)
+endif()
 if(ILLUM_WARNINGS_AS_ERRORS)
   target_compile_options(illum_flags INTERFACE -Werror)
 endif()
