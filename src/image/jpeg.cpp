@@ -220,6 +220,9 @@ StoredPicture decodeJpeg(std::span<const std::byte> bytes, const std::filesystem
 }
 
 std::vector<std::byte> encodeJpeg(const BytePicture& picture, int quality) {
+  if (picture.channels() != 1 && picture.channels() != 3)
+    throw Error(Fault::Usage, "expected a picture of 1 or 3 channels for JPEG, found " +
+                                  std::to_string(picture.channels()));
   return JpegWriter().write(picture, quality);
 }
 
