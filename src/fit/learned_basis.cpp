@@ -42,7 +42,7 @@ void makeOrthonormal(PrincipalPlanes& planes, const Kriging& kriging,
 
 std::vector<Direction> tableNodes(std::span<const Direction> lights) {
   std::vector<Direction> nodes(lights.begin(), lights.end());
-  for (const WeightedDirection& node : capQuadrature(litCapOf(lights), kTableRings)) {
+  for (const WeightedDirection& node : capQuadrature(litCapOf(lights).thetaMaxRadians, kTableRings)) {
     nodes.push_back(node.direction);
   }
   return nodes;

@@ -113,7 +113,7 @@ BasisTable rotatedTable(const AnalyticBasis& basis, const PlaneRotation& rotatio
   request.planeRms = planeRms;
   request.budget = std::max(kTableShare * errorPerChannel, kLeastTableError);
   request.nodes.assign(lights.begin(), lights.end());
-  for (const WeightedDirection& node : capQuadrature(litCapOf(lights), kTableRings)) {
+  for (const WeightedDirection& node : capQuadrature(litCapOf(lights).thetaMaxRadians, kTableRings)) {
     request.nodes.push_back(node.direction);
   }
   request.values = [&](ChartPoint p, std::span<double> out) {
