@@ -9,10 +9,10 @@ namespace illum {
 /// Linear Rec.709, unbounded. 1 is the value of a white surface as photographed under light 1.
 struct LinearRgb {
   float r = 0, g = 0, b = 0;
-  friend LinearRgb operator+(LinearRgb a, LinearRgb b) {
-    return {a.r + b.r, a.g + b.g, a.b + b.b};
+  friend LinearRgb operator+(LinearRgb left, LinearRgb right) {
+    return {left.r + right.r, left.g + right.g, left.b + right.b};
   }
-  friend LinearRgb operator*(float s, LinearRgb a) { return {s * a.r, s * a.g, s * a.b}; }
+  friend LinearRgb operator*(float s, LinearRgb c) { return {s * c.r, s * c.g, s * c.b}; }
   friend bool operator==(const LinearRgb&, const LinearRgb&) = default;
 };
 
