@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "illum/error.h"
 
@@ -26,12 +27,17 @@ Direction Direction::fromVector(Vector3 v) {
     throw Error(
         Fault::Input,
         fmt::format("expected a direction of finite coordinates, found {} {} {}", v.x, v.y, v.z));
+  // A unit vector is left as it is, so that directions survive being written and read to the last
+  // bit.
+  constexpr double kUnitWithinRounding = 4 * std::numeric_limits<double>::epsilon();
+  Direction direction;
+  direction.v_ = v;
+  if (std::abs(dot(v, v) - 1) <= kUnitWithinRounding) return direction;
   // Dividing by the largest coordinate first keeps squares clear of overflow and of denormals.
   const double largest = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
   if (largest == 0) throw Error(Fault::Input, "expected a direction, found the zero vector");
   const Vector3 scaled{v.x / largest, v.y / largest, v.z / largest};
   const double norm = length(scaled);
-  Direction direction;
   direction.v_ = {scaled.x / norm, scaled.y / norm, scaled.z / norm};
   return direction;
 }

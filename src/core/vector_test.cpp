@@ -56,6 +56,14 @@ TEST(Direction, AnglesAndVectorsAreInverse) {
   }
 }
 
+TEST(Direction, NormalisingTwiceChangesNothing) {
+  std::mt19937 random(3);
+  for (int i = 0; i < 10000; ++i) {
+    const Direction a = Direction::fromVector(randomVector(random));
+    EXPECT_EQ(Direction::fromVector(a.vector()), a) << a.x() << ' ' << a.y() << ' ' << a.z();
+  }
+}
+
 TEST(Direction, PhiStaysInItsHalfOpenRange) {
   EXPECT_EQ(Direction::fromVector({0, 0, 1}).phiRadians(), 0);
   EXPECT_EQ(Direction::fromVector({-0.0, -0.0, -1}).phiRadians(), 0);
