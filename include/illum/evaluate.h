@@ -1,6 +1,7 @@
 // Judging an object against the photographs (docs/quality.md says how the figures are defined).
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -44,8 +45,11 @@ struct Evaluation {
 
 PictureError comparePictures(const BytePicture& picture, const BytePicture& truth);
 
-/// Relights `object` under every light of `truth` and compares. Throws Error if the sizes differ.
-Evaluation evaluate(const Object& object, const Capture& truth, Progress& progress);
+/// Relights `object` under every light of `truth` and compares. Lights that the object's fit saw are used,
+/// all others held out (docs/quality.md). Works on as many lights at once as `memoryBytes` allows, with what the
+/// capture holds, but on one at least; 0 = a quarter of the machine. Throws Error if the sizes differ.
+Evaluation evaluate(const Object& object, const Capture& truth, Progress& progress,
+                    std::uint64_t memoryBytes = 0);
 
 /// Stable machine-readable form (docs/guide/evaluate.md), and a table for people.
 std::string jsonOf(const Evaluation& evaluation);

@@ -32,23 +32,23 @@ bool isHeldOut(const LightFileEntry& light, const Manifest& manifest) {
   return !fitted;
 }
 
-/// The part of the machine's memory that judging may take, and how it is shared out.
+/// How the memory that judging may take is shared out.
 struct MemoryPlan {
   std::uint64_t tileBytes = 0;  ///< for the object's decoded tiles
   int lightsAtOnce = 1;
 };
 
-MemoryPlan planMemory(const Object& object, const Capture& truth) {
+MemoryPlan planMemory(const Object& object, const Capture& truth, std::uint64_t memoryBytes) {
   const std::uint64_t pixels = truth.size().pixels();
-  const std::uint64_t quarter = machineMemoryBytes() / 4;
+  const std::uint64_t most = memoryBytes > 0 ? memoryBytes : machineMemoryBytes() / 4;
   const std::uint64_t codes = pixels * static_cast<std::uint64_t>(object.planes()) * 2;
   MemoryPlan plan;
-  plan.tileBytes = std::min(quarter / 2, codes);
+  plan.tileBytes = std::min(most / 2, codes);
 
   // A light holds its relit picture with and without alpha in floats, and both pictures in bytes.
   const std::uint64_t perLight = pixels * (7 * sizeof(float) + 6) + photographBandBytes(truth) + 1;
   const std::uint64_t held = plan.tileBytes + truth.residentBytes();
-  const std::uint64_t fitting = quarter > held ? (quarter - held) / perLight : 0;
+  const std::uint64_t fitting = most > held ? (most - held) / perLight : 0;
   const auto threads = static_cast<std::uint64_t>(tbb::this_task_arena::max_concurrency());
   plan.lightsAtOnce = static_cast<int>(std::clamp<std::uint64_t>(fitting, 1, threads));
   return plan;
@@ -130,8 +130,9 @@ std::vector<LightResult> judgeAll(const Comparison& comparison, int atOnce, Prog
 
 }  // namespace
 
-Evaluation evaluate(const Object& object, const Capture& truth, Progress& progress) {
-  const MemoryPlan plan = planMemory(object, truth);
+Evaluation evaluate(const Object& object, const Capture& truth, Progress& progress,
+                    std::uint64_t memoryBytes) {
+  const MemoryPlan plan = planMemory(object, truth, memoryBytes);
   const Comparison comparison(object, truth, plan.tileBytes);
   progress.begin("judging " + std::to_string(truth.lights().size()) + " lights",
                  truth.lights().size());

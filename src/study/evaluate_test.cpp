@@ -1,1 +1,244 @@
+#include "illum/evaluate.h"
 
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <cmath>
+#include <string>
+
+#include "illum/colour.h"
+#include "illum/error.h"
+#include "study/fake_capture_for_test.h"
+#include "study/object_for_test.h"
+
+namespace illum {
+namespace {
+
+constexpr Size kSize{150, 70};
+
+int pattern(int x, int y, int c) {
+  return 40 + (3 * x + 5 * y + 50 * c) % 150;
+}
+
+float unit(int byte) {
+  return static_cast<float>(byte) / 255;
+}
+
+class CountingProgress : public Progress {
+ public:
+  void begin(std::string_view, std::uint64_t total) override { total_ = total; }
+  void advance(std::uint64_t steps) override { done_ += steps; }
+  void end() override { ended_ = true; }
+  std::uint64_t total_ = 0;
+  std::atomic<std::uint64_t> done_ = 0;
+  bool ended_ = false;
+};
+
+Evaluation judged(const Object& object, const Capture& capture) {
+  Progress progress;
+  return evaluate(object, capture, progress);
+}
+
+TEST(Evaluate, APerfectObjectHas99DecibelsUnderEveryLight) {
+  const TemporaryFolder folder("perfect");
+  const auto lights = ringOfLights(7);
+  const Object object = makeObject(folder.path() / "a.illum", {kSize, pattern, lights, {4}});
+  const FakeCapture capture(kSize, Transfer::Display, lights,
+                            [](int, int x, int y, int c) { return unit(pattern(x, y, c)); });
+  CountingProgress progress;
+  const Evaluation evaluation = evaluate(object, capture, progress);
+
+  EXPECT_EQ(evaluation.used.lights, 6);
+  EXPECT_EQ(evaluation.heldOut.lights, 1);
+  EXPECT_EQ(evaluation.used.all.psnrDecibels, 99);
+  EXPECT_EQ(evaluation.heldOut.all.psnrDecibels, 99);
+  EXPECT_NEAR(evaluation.used.all.ssim, 1, 1e-6);
+  EXPECT_EQ(evaluation.used.all.rms, 0);
+  EXPECT_LT(evaluation.used.linearRms, 1e-6);
+  EXPECT_FALSE(evaluation.hasMask);
+  EXPECT_EQ(evaluation.bytes, std::filesystem::file_size(object.path()));
+  EXPECT_NEAR(evaluation.bitsPerPixel, 8.0 * static_cast<double>(evaluation.bytes) / 10500, 1e-9);
+  EXPECT_EQ(progress.total_, 7u);
+  EXPECT_EQ(progress.done_, 7u);
+  EXPECT_TRUE(progress.ended_);
+}
+
+TEST(Evaluate, EachLightHasItsOwnErrorAndSummariesAreTheirMeans) {
+  const TemporaryFolder folder("offsets");
+  const auto lights = ringOfLights(6);
+  const Object object = makeObject(folder.path() / "a.illum", {kSize, pattern, lights, {2, 5}});
+  const FakeCapture capture(kSize, Transfer::Display, lights, [](int light, int x, int y, int c) {
+    return unit(pattern(x, y, c) + light + 1);
+  });
+  const Evaluation evaluation = judged(object, capture);
+  double used = 0, heldOut = 0;
+  for (int light = 0; light < 6; ++light) {
+    const LightResult& result = evaluation.lights[static_cast<std::size_t>(light)];
+    const double expected = 20 * std::log10(255.0 / (light + 1));
+    EXPECT_EQ(result.name, "light" + std::to_string(light) + ".png");
+    EXPECT_EQ(result.heldOut, light % 3 == 2);
+    EXPECT_NEAR(result.all.psnrDecibels, expected, 1e-9) << light;
+    (result.heldOut ? heldOut : used) += expected / (result.heldOut ? 2 : 4);
+  }
+  EXPECT_NEAR(evaluation.used.all.psnrDecibels, used, 1e-9);
+  EXPECT_NEAR(evaluation.heldOut.all.psnrDecibels, heldOut, 1e-9);
+}
+
+TEST(Evaluate, LinearFiguresCompareLinearLight) {
+  const TemporaryFolder folder("linear");
+  const auto lights = ringOfLights(1);
+  const auto flat = [](int, int, int) { return 100; };
+  const Object object = makeObject(folder.path() / "a.illum", {kSize, flat, lights, {}});
+  const FakeCapture capture(kSize, Transfer::Linear, lights,
+                            [](int, int, int, int) { return 2.5f; });
+  const double error = 2.5 - double{linearFromDisplay(unit(100))};
+  const Evaluation evaluation = judged(object, capture);
+  EXPECT_NEAR(evaluation.used.linearRms, error, 1e-5);
+  EXPECT_NEAR(evaluation.used.linearPsnrDecibels, -20 * std::log10(error), 1e-4);
+  // On screen 2.5 is white.
+  EXPECT_NEAR(evaluation.used.all.psnrDecibels, 20 * std::log10(255.0 / 155), 1e-9);
+}
+
+TEST(Evaluate, ALightsIntensityIsPartOfIt) {
+  // The object shows 100 under light 1; photographed at an exposure of one half and divided by it.
+  const TemporaryFolder folder("intensity");
+  const auto lights = ringOfLights(3, {0.5f, 0.25f, 2.0f});
+  const auto flat = [](int, int, int) { return 100; };
+  const Object object = makeObject(folder.path() / "a.illum", {kSize, flat, lights, {}});
+  const FakeCapture capture(kSize, Transfer::Display, lights,
+                            [](int, int, int, int) { return unit(100); });
+  EXPECT_EQ(judged(object, capture).used.all.psnrDecibels, 99);
+}
+
+TEST(Evaluate, OnlyLightsThatTheFitSawAreUsed) {
+  const TemporaryFolder folder("heldout");
+  const auto fitted = ringOfLights(4);
+  const Object object = makeObject(folder.path() / "a.illum", {kSize, pattern, fitted, {1}});
+  std::vector<LightFileEntry> lights = ringOfLights(4);
+  lights[0].name = "renamed.jpg";                           // the direction was fitted
+  lights[2].light.toLight = Direction::fromAngles(0.2, 2);  // another stack, the same name
+  lights.push_back({"new.png", {Direction::fromAngles(0.1, 1), {1, 1, 1}}, 5});
+  lights.push_back({"light1b.png", fitted[1].light, 6});  // the direction was left out
+  const FakeCapture capture(kSize, Transfer::Display, lights,
+                            [](int, int x, int y, int c) { return unit(pattern(x, y, c)); });
+  const Evaluation evaluation = judged(object, capture);
+  std::vector<bool> heldOut;
+  for (const LightResult& light : evaluation.lights) heldOut.push_back(light.heldOut);
+  EXPECT_THAT(heldOut, testing::ElementsAre(false, true, true, false, true, true));
+  EXPECT_EQ(evaluation.used.lights, 2);
+  EXPECT_EQ(evaluation.heldOut.lights, 4);
+}
+
+TEST(Evaluate, EveryPhotographIsReadOnceFromTheTop) {
+  const TemporaryFolder folder("bands");
+  const auto lights = ringOfLights(9);
+  const Object object = makeObject(folder.path() / "a.illum", {kSize, pattern, lights, {}});
+  FakeCapture capture(kSize, Transfer::Display, lights,
+                      [](int, int x, int y, int c) { return unit(pattern(x, y, c)); });
+  capture.withBandRows(16);
+  EXPECT_EQ(judged(object, capture).used.all.psnrDecibels, 99);
+  EXPECT_EQ(capture.backwardReads(), 0);
+  EXPECT_EQ(capture.reads(), 9 * 5);
+}
+
+/// Inside x < 75 the object is right, outside it is wrong by 20; the mask covers the inside alone.
+struct HalfMasked {
+  static int shown(int x, int y, int c) { return pattern(x, y, c) + (x < 75 ? 0 : 20); }
+  static int covered(int x, int) { return x < 75 ? 255 : 0; }
+  static float sample(int, int x, int y, int c) { return unit(pattern(x, y, c)); }
+};
+
+TEST(Evaluate, OutsideTheMaskEverythingIsBlack) {
+  const TemporaryFolder folder("mask");
+  const auto lights = ringOfLights(2);
+  FlatObject flat{kSize, HalfMasked::shown, lights, {}};
+  flat.coverageAt = HalfMasked::covered;
+  const Object object = makeObject(folder.path() / "a.illum", flat);
+  FakeCapture capture(kSize, Transfer::Display, lights, HalfMasked::sample);
+  capture.withMask([](int x, int y) { return unit(HalfMasked::covered(x, y)); });
+  const Evaluation evaluation = judged(object, capture);
+  EXPECT_TRUE(evaluation.hasMask);
+  EXPECT_EQ(evaluation.used.all.psnrDecibels, 99);
+  EXPECT_EQ(evaluation.used.masked.psnrDecibels, 99);
+}
+
+TEST(Evaluate, TheObjectsMaskServesWhereTheCaptureHasNone) {
+  const TemporaryFolder folder("objectmask");
+  const auto lights = ringOfLights(2);
+  FlatObject flat{kSize, HalfMasked::shown, lights, {}};
+  flat.coverageAt = HalfMasked::covered;
+  const Object object = makeObject(folder.path() / "a.illum", flat);
+  const FakeCapture capture(kSize, Transfer::Display, lights, HalfMasked::sample);
+  const Evaluation evaluation = judged(object, capture);
+  EXPECT_TRUE(evaluation.hasMask);
+  EXPECT_EQ(evaluation.used.all.psnrDecibels, 99);
+}
+
+TEST(Evaluate, AMaskThatTheObjectLostShowsAsError) {
+  const TemporaryFolder folder("lostmask");
+  const auto lights = ringOfLights(2);
+  FlatObject flat{kSize, HalfMasked::shown, lights, {}};
+  flat.coverageAt = [](int, int) { return 0; };
+  const Object object = makeObject(folder.path() / "a.illum", flat);
+  FakeCapture capture(kSize, Transfer::Display, lights, HalfMasked::sample);
+  capture.withMask([](int, int) { return 1.0f; });
+  EXPECT_LT(judged(object, capture).used.all.psnrDecibels, 10);
+}
+
+TEST(Evaluate, AMaskOfTheCaptureAloneOnlySeparatesFigures) {
+  const TemporaryFolder folder("capturemask");
+  const auto lights = ringOfLights(2);
+  const Object object =
+      makeObject(folder.path() / "a.illum", {kSize, HalfMasked::shown, lights, {}});
+  FakeCapture capture(kSize, Transfer::Display, lights, HalfMasked::sample);
+  capture.withMask([](int x, int y) { return unit(HalfMasked::covered(x, y)); });
+  const Evaluation evaluation = judged(object, capture);
+  EXPECT_TRUE(evaluation.hasMask);
+  EXPECT_EQ(evaluation.used.masked.psnrDecibels, 99);
+  EXPECT_NEAR(evaluation.used.all.psnrDecibels, 10 * std::log10(255 * 255 / 200.0), 1e-9);
+}
+
+TEST(Evaluate, AnotherSizeIsAnError) {
+  const TemporaryFolder folder("size");
+  const auto lights = ringOfLights(1);
+  const Object object = makeObject(folder.path() / "a.illum", {kSize, pattern, lights, {}});
+  const FakeCapture capture({151, 70}, Transfer::Display, lights,
+                            [](int, int, int, int) { return 0.0f; });
+  try {
+    judged(object, capture);
+    FAIL() << "no error";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.fault(), Fault::Input);
+    EXPECT_THAT(error.what(), testing::HasSubstr("a.illum"));
+    EXPECT_THAT(error.what(), testing::HasSubstr("150x70"));
+    EXPECT_THAT(error.what(), testing::HasSubstr("151x70"));
+  }
+}
+
+TEST(Evaluate, NoLightIsAnError) {
+  const TemporaryFolder folder("none");
+  const Object object =
+      makeObject(folder.path() / "a.illum", {kSize, pattern, ringOfLights(1), {}});
+  const FakeCapture capture(kSize, Transfer::Display, {}, [](int, int, int, int) { return 0.0f; });
+  EXPECT_THROW(judged(object, capture), Error);
+}
+
+TEST(Evaluate, AFailingPhotographIsReportedAsItIs) {
+  const TemporaryFolder folder("failing");
+  const auto lights = ringOfLights(8);
+  const Object object = makeObject(folder.path() / "a.illum", {kSize, pattern, lights, {}});
+  const FakeCapture capture(kSize, Transfer::Display, lights, [](int light, int, int, int) {
+    if (light == 5) throw Error(Fault::Input, "light5.png: cannot be read");
+    return 0.5f;
+  });
+  try {
+    judged(object, capture);
+    FAIL() << "no error";
+  } catch (const Error& error) {
+    EXPECT_STREQ(error.what(), "light5.png: cannot be read");
+  }
+}
+
+}  // namespace
+}  // namespace illum
