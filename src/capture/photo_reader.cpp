@@ -1,1 +1,57 @@
-// photo_reader.cpp
+#include "capture/photo_reader.h"
+
+#include <algorithm>
+#include <string>
+
+#include "capture/jpeg_reader.h"
+#include "capture/oiio_reader.h"
+#include "core/memory.h"
+#include "illum/error.h"
+
+namespace illum {
+namespace {
+
+// Bytes a pixel that readers which decode at once need at their worst, measured with
+// OpenImageIO 2.4.
+constexpr std::uint64_t kWorstBytesPerPixel = 24;
+// Far beyond any camera, and small enough that no product of sizes overflows 64 bits.
+constexpr int kLongestSide = 1 << 20;
+
+void checkDeclaredSize(const std::filesystem::path& path, Size size, std::uint64_t memoryBytes) {
+  const std::uint64_t needed = kWorstBytesPerPixel * size.pixels();
+  if (needed <= memoryBytes) return;
+  throw Error(Fault::Machine, path.string() + ": decoding its " + std::to_string(size.width) + "x" +
+                                  std::to_string(size.height) + " pixels needs " +
+                                  textFromBytes(needed) + " of memory, --max-memory leaves " +
+                                  textFromBytes(memoryBytes));
+}
+
+}  // namespace
+
+PhotographHeader readHeader(FilePool& pool, std::size_t file, std::uint64_t memoryBytes) {
+  const std::filesystem::path path = pool.path(file);
+  std::vector<std::byte> head(kHeadBytes);
+  head.resize(pool.read(file, 0, head));
+  const PhotographFormat format = formatOfFile(path, head);
+  if (const auto declared = declaredSize(path, format, head)) {
+    checkDeclaredSize(path, *declared, memoryBytes);
+  }
+  PhotographHeader header = format == PhotographFormat::Jpeg
+                                ? readJpegHeader(pool, file)
+                                : readOiioHeader(pool, file, format, head);
+  if (header.stored.width < 1 || header.stored.height < 1 ||
+      std::max(header.stored.width, header.stored.height) > kLongestSide) {
+    throw inputError(
+        path, "a picture of at most " + std::to_string(kLongestSide) + " pixels a side",
+        std::to_string(header.stored.width) + "x" + std::to_string(header.stored.height));
+  }
+  return header;
+}
+
+std::unique_ptr<PhotographReader> openReader(FilePool& pool, std::size_t file,
+                                             const PhotographHeader& header) {
+  if (header.format == PhotographFormat::Jpeg) return openJpegReader(pool, file, header);
+  return openOiioReader(pool, file, header);
+}
+
+}  // namespace illum

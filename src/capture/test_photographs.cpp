@@ -1,1 +1,185 @@
-// test_photographs.cpp
+#include "capture/test_photographs.h"
+
+#include <OpenImageIO/imageio.h>
+#include <png.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
+#include <memory>
+#include <numbers>
+#include <numeric>
+#include <stdexcept>
+
+namespace illum::test {
+namespace {
+
+OIIO::TypeDesc typeDescOf(SampleType type) {
+  if (type == SampleType::Byte) return OIIO::TypeUInt8;
+  return type == SampleType::Word ? OIIO::TypeUInt16 : OIIO::TypeFloat;
+}
+
+void setAttribute(OIIO::ImageSpec& spec, const std::string& name, const Attribute& attribute) {
+  if (const auto* number = std::get_if<int>(&attribute)) spec.attribute(name, *number);
+  if (const auto* number = std::get_if<float>(&attribute)) spec.attribute(name, *number);
+  if (const auto* text = std::get_if<std::string>(&attribute)) spec.attribute(name, *text);
+  if (const auto* bytes = std::get_if<std::vector<std::byte>>(&attribute)) {
+    spec.attribute(name, OIIO::TypeDesc(OIIO::TypeDesc::UINT8, static_cast<int>(bytes->size())),
+                   bytes->data());
+  }
+}
+
+std::vector<float> valuesOf(const Sketch& sketch) {
+  std::vector<float> values;
+  for (int y = 0; y < sketch.size.height; ++y) {
+    for (int x = 0; x < sketch.size.width; ++x) {
+      for (int c = 0; c < sketch.channels; ++c) {
+        values.push_back(static_cast<float>(sketch.value(x, y, c)));
+      }
+    }
+  }
+  return values;
+}
+
+[[noreturn]] void fail(const std::filesystem::path& file, const std::string& why) {
+  throw std::runtime_error("test picture " + file.string() + ": " + why);
+}
+
+}  // namespace
+
+Folder::Folder() {
+  std::string name = (std::filesystem::temp_directory_path() / "illum-capture-XXXXXX").string();
+  if (::mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary folder");
+  path_ = name;
+}
+
+Folder::~Folder() {
+  std::error_code ignored;
+  std::filesystem::remove_all(path_, ignored);
+}
+
+void Folder::writeText(const std::string& name, std::string_view text) const {
+  std::ofstream(path_ / name, std::ios::binary) << text;
+}
+
+double pattern(int seed, int x, int y, int channel) {
+  const double wave = std::sin(0.31 * x + 0.17 * y * (1 + 0.1 * seed) + channel + seed);
+  return std::clamp(0.5 + 0.4 * wave + (x > y ? 0.08 : -0.08), 0.0, 1.0);
+}
+
+Sketch sketch(int seed, Size size, int channels, SampleType type) {
+  Sketch result;
+  result.size = size;
+  result.channels = channels;
+  result.type = type;
+  result.value = [seed](int x, int y, int c) { return pattern(seed, x, y, c); };
+  return result;
+}
+
+void write(const std::filesystem::path& file, const Sketch& sketch) {
+  OIIO::ImageSpec spec(sketch.size.width, sketch.size.height, sketch.channels,
+                       typeDescOf(sketch.type));
+  for (const auto& [name, attribute] : sketch.attributes) setAttribute(spec, name, attribute);
+  const auto tile = sketch.attributes.find("tile");
+  if (tile != sketch.attributes.end()) {
+    spec.tile_width = spec.tile_height = std::get<int>(tile->second);
+  }
+  const auto output = OIIO::ImageOutput::create(file.string());
+  if (!output) fail(file, OIIO::geterror());
+  const std::vector<float> values = valuesOf(sketch);
+  if (!output->open(file.string(), spec) || !output->write_image(OIIO::TypeFloat, values.data()) ||
+      !output->close()) {
+    fail(file, output->geterror());
+  }
+}
+
+void writeInterlacedPng(const std::filesystem::path& file, const Sketch& sketch) {
+  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> out(std::fopen(file.c_str(), "wb"),
+                                                            std::fclose);
+  png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, nullptr, nullptr);
+  png_infop info = png_create_info_struct(png);
+  png_init_io(png, out.get());
+  constexpr std::array<int, 5> kTypes{0, PNG_COLOR_TYPE_GRAY, PNG_COLOR_TYPE_GRAY_ALPHA,
+                                      PNG_COLOR_TYPE_RGB, PNG_COLOR_TYPE_RGBA};
+  png_set_IHDR(png, info, static_cast<png_uint_32>(sketch.size.width),
+               static_cast<png_uint_32>(sketch.size.height), 8,
+               kTypes[static_cast<std::size_t>(sketch.channels)], PNG_INTERLACE_ADAM7,
+               PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+  png_write_info(png, info);
+  std::vector<png_byte> samples;
+  for (const float value : valuesOf(sketch)) {
+    samples.push_back(static_cast<png_byte>(std::lround(255 * value)));
+  }
+  std::vector<png_bytep> rows;
+  const std::size_t rowBytes =
+      static_cast<std::size_t>(sketch.size.width) * static_cast<std::size_t>(sketch.channels);
+  for (int y = 0; y < sketch.size.height; ++y) {
+    rows.push_back(samples.data() + static_cast<std::size_t>(y) * rowBytes);
+  }
+  png_write_image(png, rows.data());
+  png_write_end(png, info);
+  png_destroy_write_struct(&png, &info);
+}
+
+std::string lightFileText(int count, const std::function<std::string(int)>& name) {
+  std::string text = std::to_string(count) + "\n";
+  for (int i = 0; i < count; ++i) {
+    const double z = 1 - (i + 0.5) / count;
+    const double phi = i * std::numbers::pi * (3 - std::sqrt(5.0));
+    const double r = std::sqrt(1 - z * z);
+    text += name(i) + " " + std::to_string(r * std::cos(phi)) + " " +
+            std::to_string(r * std::sin(phi)) + " " + std::to_string(z) + "\n";
+  }
+  return text;
+}
+
+std::vector<float> readAll(const Capture& capture, const Rectangle& rectangle) {
+  std::vector<int> lights(capture.lights().size());
+  std::iota(lights.begin(), lights.end(), 0);
+  std::vector<float> samples(3 * lights.size() * rectangle.pixels(), -1000.0f);
+  capture.read(0, rectangle, lights, samples);
+  return samples;
+}
+
+std::vector<float> readAll(const Capture& capture) {
+  return readAll(capture, {0, 0, capture.size().width, capture.size().height});
+}
+
+void Listener::begin(std::string_view what, std::uint64_t total) {
+  const std::lock_guard lock(mutex_);
+  stages.emplace_back(what);
+  expected += total;
+  ++open;
+}
+
+void Listener::advance(std::uint64_t steps) {
+  const std::lock_guard lock(mutex_);
+  advanced += steps;
+}
+
+void Listener::end() {
+  const std::lock_guard lock(mutex_);
+  --open;
+}
+
+void Listener::remark(std::string_view sentence) {
+  const std::lock_guard lock(mutex_);
+  remarks.emplace_back(sentence);
+}
+
+std::vector<std::byte> bytesOf(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  std::vector<std::byte> bytes(std::filesystem::file_size(file));
+  in.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+  return bytes;
+}
+
+void writeBytes(const std::filesystem::path& file, const std::vector<std::byte>& bytes) {
+  std::ofstream(file, std::ios::binary)
+      .write(reinterpret_cast<const char*>(bytes.data()),
+             static_cast<std::streamsize>(bytes.size()));
+}
+
+}  // namespace illum::test
