@@ -1,4 +1,4 @@
-"""A full disk, no permission, a read-only source: exit 3 or 1, one sentence, nothing half-written."""
+"""A full disk, no permission, a read-only source: one sentence, nothing half-written."""
 
 import contextlib
 import os
@@ -44,7 +44,8 @@ def test_disk_full_while_building(illum, tmp_path, kibibytes, old):
         out = disk / "o.illum"
         if old:
             out.write_bytes(b"precious")
-        illum.refuses("build", source, "-o", out, "--coding", "png", "--bits", 16, "--force", code=3)
+        illum.refuses("build", source, "-o", out, "--coding", "png", "--bits", 16, "--force",
+                      code=3)
         assert out.read_bytes() == b"precious" if old else not out.exists()
         assert {p.name for p in disk.iterdir()} <= {"o.illum", "o.illum.partial"}
 
@@ -108,10 +109,12 @@ def test_a_folder_that_may_not_be_written(illum, open_folder):
     if not program_is_reachable():
         pytest.skip("another user may not run the program where it lies")
     (open_folder / "mine").mkdir(mode=0o755)
-    for arguments in (["build", open_folder / "photographs", "-o", open_folder / "mine" / "o.illum"],
+    out = open_folder / "mine"
+    for arguments in (["build", open_folder / "photographs", "-o", out / "o.illum"],
                       ["relight", open_folder / "ball.illum", "--light", "0,0,1", "-o",
-                       open_folder / "mine" / "o.png"]):
-        illum.refuses(*arguments, code=3, wrapper=NOBODY, cwd="/", mentions="o.", leaves=open_folder)
+                       out / "o.png"]):
+        illum.refuses(*arguments, code=3, wrapper=NOBODY, cwd="/", mentions="o.",
+                      leaves=open_folder)
 
 
 @root_only

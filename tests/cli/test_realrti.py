@@ -1,4 +1,4 @@
-"""The public stacks: held-out quality and bytes against the best known peer, and the judge's word."""
+"""The public stacks: held-out quality and bytes against the best known peer."""
 
 import csv
 import json

@@ -1,4 +1,4 @@
-"""Ctrl-C, kill -9 and --resume: whatever the moment, the object is whole, and the same, or not there."""
+"""Ctrl-C, kill -9 and --resume: the object is whole and the same, or not there."""
 
 import os
 import random
