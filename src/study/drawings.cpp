@@ -61,10 +61,11 @@ double dotRadius(std::size_t lights) {
                     6.0);
 }
 
-constexpr double kDiscRadius = 132;
+constexpr double kDiscRadius = 146;
 constexpr double kDiscSide = 320;
 
 /// The horizon and the circles of 30 and 60 degrees above it, seen along z, with the two axes.
+/// `caption`: below it; may be empty.
 std::string discGrid(double centreX, std::string_view caption) {
   const double centreY = kDiscSide / 2;
   std::string svg;
@@ -76,8 +77,9 @@ std::string discGrid(double centreX, std::string_view caption) {
   svg += fmt::format(R"(<path class="grid" d="M{:.1f} {:.1f}h{:.1f}M{:.1f} {:.1f}v{:.1f}"/>)",
                      centreX - kDiscRadius, centreY, 2 * kDiscRadius, centreX,
                      centreY - kDiscRadius, 2 * kDiscRadius);
-  svg += fmt::format(R"(<text x="{:.1f}" y="{:.1f}" text-anchor="middle">{}</text>)", centreX,
-                     kDiscSide - 4, caption);
+  if (!caption.empty())
+    svg += fmt::format(R"(<text x="{:.1f}" y="{:.1f}" text-anchor="middle">{}</text>)", centreX,
+                       kDiscSide + 12, caption);
   return svg + "\n";
 }
 
@@ -181,7 +183,7 @@ std::string domeDrawing(const Evaluation& evaluation) {
   std::string svg = fmt::format(
       R"(<svg class="dome" viewBox="0 0 {:.0f} {:.0f}" role="img" aria-label="Light directions coloured by PSNR">)",
       behind ? 2 * kDiscSide : kDiscSide, kDiscSide);
-  svg += discGrid(kDiscSide / 2, "from the front") +
+  svg += discGrid(kDiscSide / 2, behind ? "from the front" : "") +
          discMarks(evaluation, range, kDiscSide / 2, false);
   if (behind)
     svg += discGrid(1.5 * kDiscSide, "from behind") +

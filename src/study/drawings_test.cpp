@@ -65,8 +65,8 @@ TEST(Drawings, TheDomeHasXRightAndYUp) {
   evaluation.lights[0].direction = Direction::fromVector({1, 0, 0});
   evaluation.lights[1].direction = Direction::fromVector({0, 1, 0});
   const std::string svg = domeDrawing(evaluation);
-  EXPECT_THAT(svg, HasSubstr(R"(<circle class="dot" cx="292.0" cy="160.0")"));
-  EXPECT_THAT(svg, HasSubstr(R"(<circle class="dot" cx="160.0" cy="28.0")"));
+  EXPECT_THAT(svg, HasSubstr(R"(<circle class="dot" cx="306.0" cy="160.0")"));
+  EXPECT_THAT(svg, HasSubstr(R"(<circle class="dot" cx="160.0" cy="14.0")"));
 }
 
 TEST(Drawings, HeldOutLightsAreRinged) {
@@ -82,9 +82,11 @@ TEST(Drawings, HeldOutLightsAreRinged) {
 TEST(Drawings, LightsFromBehindGetADiscOfTheirOwn) {
   Evaluation evaluation = madeUpEvaluation({30, 31, 32});
   EXPECT_EQ(count(domeDrawing(evaluation), "class=\"horizon\""), 1);
+  EXPECT_THAT(domeDrawing(evaluation), Not(HasSubstr("from behind")));
   evaluation.lights[1].direction = Direction::fromVector({0, 0, -1});
   const std::string svg = domeDrawing(evaluation);
   EXPECT_EQ(count(svg, "class=\"horizon\""), 2);
+  EXPECT_THAT(svg, HasSubstr("from behind"));
   EXPECT_THAT(svg, HasSubstr(R"(class="dot" cx="480.0" cy="160.0")"));
 }
 

@@ -31,12 +31,23 @@ struct Shown {
   std::uint8_t byte = 0;
 };
 
+/// linearFromDisplay; the values of 8-bit files, which most are, without the power.
+float linearFromSample(float sample) {
+  static const std::array<float, 256> kLinear = [] {
+    std::array<float, 256> linear{};
+    for (std::size_t byte = 0; byte < linear.size(); ++byte)
+      linear[byte] = linearFromDisplay(static_cast<float>(byte) / 255);
+    return linear;
+  }();
+  const std::uint8_t byte = byteFromUnit(sample);
+  return sample == static_cast<float>(byte) / 255 ? kLinear[byte] : linearFromDisplay(sample);
+}
+
 /// A factor of exactly 1 keeps the byte of a display-referred file out of the way of any rounding.
 Shown shownSample(float sample, Transfer transfer, float factor) {
   if (transfer == Transfer::Display && factor == 1)
-    return {linearFromDisplay(sample), byteFromUnit(sample)};
-  const float linear =
-      factor * (transfer == Transfer::Display ? linearFromDisplay(sample) : sample);
+    return {linearFromSample(sample), byteFromUnit(sample)};
+  const float linear = factor * (transfer == Transfer::Display ? linearFromSample(sample) : sample);
   return {linear, displayByteFromLinear(linear)};
 }
 

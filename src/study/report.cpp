@@ -125,10 +125,12 @@ std::string imageTag(const BytePicture& picture, std::string_view caption) {
          "\n";
 }
 
+/// Height above the picture's plane, and the way around it from the right over the top, below 360.
 std::string directionText(Direction direction) {
   constexpr double kDegrees = 180 / std::numbers::pi;
+  const double azimuth = std::round(kDegrees * direction.phiRadians());
   return fmt::format("elevation {:.0f}°, azimuth {:.0f}°", 90 - kDegrees * direction.thetaRadians(),
-                     kDegrees * direction.phiRadians());
+                     azimuth < 0 ? azimuth + 360 : azimuth);
 }
 
 /// Photograph, relit picture and error of one light, side by side.

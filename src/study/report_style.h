@@ -7,9 +7,11 @@ namespace illum {
 
 inline constexpr std::string_view kReportStyle = R"css(
 :root { color-scheme: light dark;
-  --page: #fbfbfa; --text: #1c1d1f; --quiet: #65686d; --line: #dfe0e2; --accent: #b4460f; }
+  --page: #fbfbfa; --text: #1c1d1f; --quiet: #65686d; --line: #dfe0e2; --accent: #b4460f;
+  --edge: #00000038; }
 @media (prefers-color-scheme: dark) { :root {
-  --page: #151618; --text: #e9eaec; --quiet: #9b9fa6; --line: #34363a; --accent: #ff9a5c; } }
+  --page: #151618; --text: #e9eaec; --quiet: #9b9fa6; --line: #34363a; --accent: #ff9a5c;
+  --edge: #ffffff70; } }
 * { box-sizing: border-box; }
 body { margin: 0 auto; max-width: 1080px; padding: 48px 32px 64px; background: var(--page);
   color: var(--text); font: 15px/1.5 system-ui, "Segoe UI", Roboto, "Helvetica Neue", sans-serif;
@@ -38,12 +40,13 @@ td:first-child { white-space: normal; overflow-wrap: anywhere; }
 .lights.both { grid-template-columns: 1fr; }
 svg { display: block; width: 100%; height: auto; overflow: visible; }
 svg text { fill: var(--quiet); font-size: 12px; }
+.dome { margin-bottom: 16px; }
 .lights.both .dome { max-width: 680px; }
 .ramp { max-width: 240px; margin: 16px 0; }
 .key { max-width: 240px; height: 24px; }
 .horizon { fill: none; stroke: var(--quiet); }
 .grid { fill: none; stroke: var(--line); }
-.dot { stroke: var(--page); stroke-width: 0.75; }
+.dot { stroke: var(--edge); stroke-width: 0.75; }
 .ring { fill: none; stroke: var(--accent); stroke-width: 1.75; }
 .mean { fill: none; stroke: var(--quiet); stroke-width: 1.25; }
 .dashed { stroke: var(--accent); stroke-dasharray: 5 4; }
