@@ -1,0 +1,144 @@
+#!/usr/bin/env bash
+# Everything that CI checks, from a fresh Debian 12 on. Stops at the first stage that fails; the last
+# lines are the runners' own summaries and their sum.
+#
+#   FUZZ_SECONDS=30    for each fuzzer
+#   ILLUM_SHARED=DIR   the shared test data (default ../shared); without it those tests are skipped,
+#                      with CI=true they fail
+set -euo pipefail
+cd "$(dirname "$0")/.."
+
+fuzz_seconds=${FUZZ_SECONDS:-30}
+jobs=$(nproc)
+results=$PWD/out/test
+export CMAKE_BUILD_PARALLEL_LEVEL=$jobs CTEST_OUTPUT_ON_FAILURE=1 PYTHONDONTWRITEBYTECODE=1
+[ "${CI:-}" = true ] && export ILLUM_REQUIRE_SHARED=1
+
+passed=0 failed=0 skipped=0
+summaries=()
+stage_name=""
+
+stage() {
+  stage_name=$1
+  printf '\n==== %s (%s s since the start)\n' "$stage_name" "$SECONDS"
+}
+
+# The last word, whether all stages were reached or not.
+finish() {
+  local status=$?
+  printf '\n==== Summaries\n'
+  [ "${#summaries[@]}" -eq 0 ] || printf '%s\n' "${summaries[@]}"
+  if [ "$status" -ne 0 ]; then
+    printf 'stage "%s" failed after %s s\n' "$stage_name" "$SECONDS"
+    [ "$failed" -gt 0 ] || failed=1
+  fi
+  printf '%s passed, %s failed, %s skipped\n' "$passed" "$failed" "$skipped"
+  exit "$status"
+}
+trap finish EXIT
+
+count() { # PASSED FAILED SKIPPED
+  passed=$((passed + $1)) failed=$((failed + $2)) skipped=$((skipped + $3))
+}
+
+# The sum of an attribute over a JUnit file's suites.
+junit() { # FILE ATTRIBUTE
+  grep -o '<testsuite [^>]*' "$1" | grep -o " $2=\"[0-9]*\"" | tr -dc '0-9\n' |
+    awk '{ sum += $1 } END { print sum + 0 }'
+}
+
+count_junit() { # FILE
+  local bad=$(($(junit "$1" failures) + $(junit "$1" errors)))
+  local idle=$(($(junit "$1" skipped) + $(junit "$1" disabled)))
+  count $(($(junit "$1" tests) - bad - idle)) "$bad" "$idle"
+}
+
+run_ctest() { # NAME BUILD
+  local status=0
+  ctest --test-dir "$2" -j "$jobs" --output-junit "$results/$1.xml" 2>&1 | tee "$results/$1.log" ||
+    status=$?
+  [ ! -f "$results/$1.xml" ] || count_junit "$results/$1.xml"
+  summaries+=("$1: $(grep 'tests passed' "$results/$1.log" || echo 'ctest ended early')")
+  return "$status"
+}
+
+run_pytest() { # NAME ARGUMENTS…
+  local name=$1 status=0
+  shift
+  /usr/bin/python3 -m pytest -q --junitxml "$results/$name.xml" "$@" 2>&1 |
+    tee "$results/$name.log" || status=$?
+  [ ! -f "$results/$name.xml" ] || count_junit "$results/$name.xml"
+  summaries+=("$name: $(tail -n 1 "$results/$name.log")")
+  return "$status"
+}
+
+run_fuzzer() { # PROGRAM: a corpus of seeds may lie in tests/fuzz/corpus/NAME
+  local name corpus log
+  name=$(basename "$1")
+  corpus=tests/fuzz/corpus/$name
+  log=$results/$name.log
+  mkdir -p "$results/$name"
+  local folders=("$results/$name")
+  [ ! -d "$corpus" ] || folders+=("$corpus")
+  if "$1" -max_total_time="$fuzz_seconds" -timeout=20 -rss_limit_mb=1500 -print_final_stats=1 \
+    -artifact_prefix="$results/$name-" "${folders[@]}" >"$log" 2>&1; then
+    count 1 0 0
+    summaries+=("$name: $(grep -o 'Done .*' "$log" | tail -n 1)")
+  else
+    count 0 1 0
+    tail -n 40 "$log"
+    summaries+=("$name: found a fault, see $log")
+    return 1
+  fi
+}
+
+stage "Set-up"
+scripts/setup.sh test
+rm -rf "$results"
+mkdir -p "$results"
+
+stage "Formatting"
+git ls-files '*.h' '*.cpp' | xargs clang-format --dry-run -Werror
+
+stage "Release build"
+cmake --preset release -DILLUM_TESTS=ON >"$results/configure.log"
+cmake --build --preset release
+
+stage "Unit tests"
+run_ctest unit build/release
+
+stage "Command line"
+run_pytest cli tests/cli
+
+stage "Installation and a program built against it"
+run_pytest install tests/install
+
+stage "illum_read alone"
+cmake --preset read -DILLUM_TESTS=ON >"$results/configure-read.log"
+cmake --build --preset read
+run_ctest read build/read
+
+stage "Browser"
+(cd tests/browser && npm ci --no-audit --no-fund --loglevel=error)
+browser_status=0
+node --test tests/browser/tiles.test.mjs 2>&1 | tee "$results/browser.log" || browser_status=$?
+browser_count() { sed -n "s/^[^a-z]* *$1 \([0-9]*\)$/\1/p" "$results/browser.log" | tail -n 1; }
+count "$(browser_count pass)" "$(browser_count fail)" "$(browser_count skipped)"
+summaries+=("browser: $(browser_count pass) pass, $(browser_count fail) fail")
+[ "$browser_status" -eq 0 ]
+
+stage "Sanitizers"
+cmake --preset sanitize -DILLUM_TESTS=ON -DILLUM_WARNINGS_AS_ERRORS=ON \
+  >"$results/configure-sanitize.log"
+cmake --build --preset sanitize
+export ASAN_OPTIONS=exitcode=99 UBSAN_OPTIONS=exitcode=99:print_stacktrace=1
+run_ctest sanitized-unit build/sanitize
+ILLUM_BIN=$PWD/build/sanitize/tools/illum/illum run_pytest sanitized-cli \
+  tests/cli/test_hostile_photographs.py tests/cli/test_hostile_objects.py
+
+stage "Fuzzers, $fuzz_seconds s each"
+for fuzzer in build/sanitize/tests/fuzz/*_fuzz; do
+  run_fuzzer "$fuzzer"
+done
+
+stage "Done"
