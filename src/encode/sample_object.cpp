@@ -47,6 +47,7 @@ Manifest sampleManifest(const SampleOptions& options) {
   BasisEntry basis;
   basis.name = "sh";
   basis.coefficients = kCoefficients;
+  basis.tableBytes = 1;
   m.bases.push_back(basis);
   m.groups.push_back({"photograph", 0, 1, {}});
   m.mask = options.mask;

@@ -50,6 +50,11 @@ void checkBasis(const Manifest& m, std::size_t index) {
           std::to_string(function));
 }
 
+void checkTile(const Manifest& m) {
+  if (m.tile % kCellAlignment != 0)
+    throw wrong("tile", fmt::format("a multiple of {}", kCellAlignment), std::to_string(m.tile));
+}
+
 /// Coarser levels exist only while the longer side exceeds a tile.
 void checkLevels(const Manifest& m) {
   if (m.levels == 1) return;
@@ -113,6 +118,7 @@ Rectangle Manifest::tileRectangle(int level, int x, int y) const {
 }
 
 void checkConsistency(const Manifest& m) {
+  checkTile(m);
   checkCoding(m);
   for (std::size_t b = 0; b < m.bases.size(); ++b) checkBasis(m, b);
   for (std::size_t g = 0; g < m.groups.size(); ++g) {

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "illum/error.h"
+#include "object/entry_name.h"
 #include "object/entry_source.h"
 #include "object/manifest.h"
 
@@ -78,7 +79,7 @@ void describe(Visitor& v, BasisEntry& basis) {
   v.numbers("colourMatrix", basis.colour.colourMatrix, -kHuge, kHuge);
   v.integer("tableOffset", basis.tableOffset, 0, kMaxBasisBytes);
   v.integer("tableBytes", basis.tableBytes, 1, kMaxBasisBytes);
-  v.numbers(optional("mixing"), basis.mixing, -kHuge, kHuge, kMaxPlanes * kMaxPlanes);
+  v.numbers(optional("mixing"), basis.mixing, -kHuge, kHuge, 0, kMaxPlanes * kMaxPlanes);
 }
 
 template <typename Visitor>
@@ -97,8 +98,8 @@ void describe(Visitor& v, CodingEntry& coding) {
   v.choice("curve", coding.curve,
            Choices<Curve>{{Curve::Linear, "linear"}, {Curve::SignedSqrt, "signedSqrt"}});
   v.number("step", coding.step, 1e-30, kHuge);
-  v.numbers("offsets", coding.offsets, -kHuge, kHuge, kMaxPlanes);
-  v.integers("functions", coding.functions, 0, kMaxPlanes - 1, kMaxPlanes);
+  v.numbers("offsets", coding.offsets, -kHuge, kHuge, 1, kMaxPlanes);
+  v.integers("functions", coding.functions, 0, kMaxPlanes - 1, 1, kMaxPlanes);
   v.integer(optional("quality"), coding.quality, 0, 100);
 }
 
@@ -153,7 +154,7 @@ void describe(Visitor& v, FileManifest& file) {
   v.records("groups", m.groups, 1, kMaxGroups);
   v.flag(optional("mask"), m.mask);
   v.records(optional("lights"), file.lights, 0, kMaxLights);
-  v.integers(optional("heldOut"), m.heldOut, 0, kMaxLights - 1, kMaxLights);
+  v.integers(optional("heldOut"), m.heldOut, 0, kMaxLights - 1, 0, kMaxLights);
   v.records(optional("provenance"), file.provenance, 0, kMaxProvenance);
 }
 
@@ -270,18 +271,19 @@ class Reader {
     for (std::size_t i = 0; i < 3; ++i)
       *values[i] = static_cast<Real>(numberOf((*node)[i], FieldPath(&path, i), low, high));
   }
-  void numbers(Name name, std::vector<double>& values, double low, double high, std::size_t most) {
+  void numbers(Name name, std::vector<double>& values, double low, double high, std::size_t least,
+               std::size_t most) {
     const FieldPath path(&path_, name.text);
-    const Json* node = findList(name, 0, most);
+    const Json* node = findList(name, least, most);
     if (node == nullptr) return;
     values.clear();
     for (std::size_t i = 0; i < node->size(); ++i)
       values.push_back(numberOf((*node)[i], FieldPath(&path, i), low, high));
   }
   void integers(Name name, std::vector<int>& values, std::uint64_t low, std::uint64_t high,
-                std::size_t most) {
+                std::size_t least, std::size_t most) {
     const FieldPath path(&path_, name.text);
-    const Json* node = findList(name, 0, most);
+    const Json* node = findList(name, least, most);
     if (node == nullptr) return;
     values.clear();
     for (std::size_t i = 0; i < node->size(); ++i)
@@ -368,21 +370,21 @@ class Writer {
   }
   template <std::size_t N>
   void numbers(Name name, const std::array<double, N>& values, double low, double high) {
-    addNumbers(name, values, low, high, N);
+    addNumbers(name, values, low, high, N, N);
   }
   template <typename Real>
   void triple(Name name, Triple<Real> values, double low, double high) {
     const std::array<double, 3> copies{*values[0], *values[1], *values[2]};
-    addNumbers(name, copies, low, high, 3);
+    addNumbers(name, copies, low, high, 3, 3);
   }
   void numbers(Name name, const std::vector<double>& values, double low, double high,
-               std::size_t most) {
-    addNumbers(name, values, low, high, most);
+               std::size_t least, std::size_t most) {
+    addNumbers(name, values, low, high, least, most);
   }
   void integers(Name name, const std::vector<int>& values, std::uint64_t low, std::uint64_t high,
-                std::size_t most) {
+                std::size_t least, std::size_t most) {
     const FieldPath path(&path_, name.text);
-    checkCount(path, values.size(), 0, most);
+    checkCount(path, values.size(), least, most);
     auto& list = node_[std::string(name.text)] = OrderedJson::array();
     for (std::size_t i = 0; i < values.size(); ++i)
       list.push_back(checkedInteger(values[i], FieldPath(&path, i), low, high));
@@ -415,9 +417,10 @@ class Writer {
     return static_cast<std::uint64_t>(value);
   }
   template <typename Numbers>
-  void addNumbers(Name name, const Numbers& values, double low, double high, std::size_t most) {
+  void addNumbers(Name name, const Numbers& values, double low, double high, std::size_t least,
+                  std::size_t most) {
     const FieldPath path(&path_, name.text);
-    checkCount(path, values.size(), 0, most);
+    checkCount(path, values.size(), least, most);
     auto& list = node_[std::string(name.text)] = OrderedJson::array();
     for (std::size_t i = 0; i < values.size(); ++i) {
       checkLimits(FieldPath(&path, i), values[i], low, high);
@@ -429,13 +432,15 @@ class Writer {
   OrderedJson node_ = OrderedJson::object();
 };
 
-/// Records and lists of records over several lines, all else on one.
+/// What nests and is long goes over several lines, all else on one.
 void print(const OrderedJson& node, int depth, std::string& out) {
-  const bool spread = node.is_structured() &&
-                      std::any_of(node.begin(), node.end(),
-                                  [](const OrderedJson& child) { return child.is_structured(); });
-  if (!spread) {
-    out += node.dump(-1, ' ', false, OrderedJson::error_handler_t::replace);
+  constexpr std::size_t kLine = 100;
+  const std::string compact = node.dump(-1, ' ', false, OrderedJson::error_handler_t::replace);
+  const bool nests = node.is_structured() &&
+                     std::any_of(node.begin(), node.end(),
+                                 [](const OrderedJson& child) { return child.is_structured(); });
+  if (!nests || compact.size() <= kLine) {
+    out += compact;
     return;
   }
   const std::string indent(2 * static_cast<std::size_t>(depth + 1), ' ');
@@ -498,27 +503,35 @@ Manifest readManifest(std::string_view text) {
   return std::move(file.manifest);
 }
 
-}  // namespace
-
-std::string textOf(const Manifest& manifest) {
+std::string writeManifest(const Manifest& manifest) {
   FileManifest file{manifest, {}, {}};
   for (const LightFileEntry& entry : manifest.lights)
     file.lights.push_back({entry.name, entry.light.toLight.vector(), entry.light.intensity});
   for (const auto& [name, value] : manifest.provenance) file.provenance.push_back({name, value});
-  checkGeometry(manifest);
-  checkConsistency(manifest);
 
   Writer writer{FieldPath()};
   writer.node()["format"] = kFormat;
   writer.node()["version"] = {kMajor, kMinor};
   describe(writer, file);
+  checkGeometry(manifest);
+  checkConsistency(manifest);
   std::string text;
   print(writer.node(), 0, text);
   text += '\n';
   if (text.size() > kMaxManifestBytes)
-    throw Error(Fault::Input, fmt::format("object.json: expected at most {} bytes, found {}",
-                                          kMaxManifestBytes, text.size()));
+    throw Error(Fault::Input,
+                fmt::format("expected at most {} bytes, found {}", kMaxManifestBytes, text.size()));
   return text;
+}
+
+}  // namespace
+
+std::string textOf(const Manifest& manifest) {
+  try {
+    return writeManifest(manifest);
+  } catch (const Error& error) {
+    throw Error(error.fault(), fmt::format("{}: {}", kManifestEntry, error.what()));
+  }
 }
 
 Manifest manifestFromText(std::string_view json, const std::string& source) {
