@@ -16,14 +16,11 @@
 #include <string>
 
 #include "illum/error.h"
+#include "image/exr_header.h"
 #include "image/formats.h"
 
 namespace illum {
 namespace {
-
-/// Flat pictures in the densest scheme (DWAB, 256 rows a block) pack about 10000 samples into a
-/// byte; this is a bound on what a header can make us allocate, not on what pictures may look like.
-constexpr double kSamplesPerByte = 65536;
 
 class MemoryInput : public Imf::IStream {
  public:
@@ -129,6 +126,7 @@ bool isRec709(const Imf::Chromaticities& colours) {
 }
 
 Picture readWhole(std::span<const std::byte> bytes, const std::filesystem::path& source) {
+  checkExrHeader(bytes, source);
   MemoryInput stream(bytes, source.string());
   Imf::InputFile file(stream, 0);
   const Imf::Header& header = file.header();
@@ -137,7 +135,7 @@ Picture readWhole(std::span<const std::byte> bytes, const std::filesystem::path&
   const std::int64_t width = std::int64_t{window.max.x} - window.min.x + 1;
   const std::int64_t height = std::int64_t{window.max.y} - window.min.y + 1;
   checkPictureSize(source, width, height, static_cast<int>(names.size()), bytes.size(),
-                   kSamplesPerByte);
+                   kExrSamplesPerByte);
 
   Picture picture({static_cast<int>(width), static_cast<int>(height)},
                   static_cast<int>(names.size()));

@@ -4,7 +4,9 @@
 #include <OpenEXR/ImfHeader.h>
 #include <OpenEXR/ImfInputFile.h>
 #include <OpenEXR/ImfOutputFile.h>
+#include <OpenEXR/ImfPreviewImage.h>
 #include <OpenEXR/ImfStandardAttributes.h>
+#include <OpenEXR/ImfTiledOutputFile.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -191,30 +193,83 @@ TEST_F(ForeignExr, EveryBitFlipIsTakenOrRefused) {
   }
 }
 
-/// The value of the attribute "dataWindow" begins behind its name, its type and its length.
-std::size_t dataWindowOf(const Bytes& bytes) {
+/// Where the value of an attribute begins: behind its name, its type and its length.
+std::size_t valueOf(const Bytes& bytes, std::string_view nameAndType) {
   const std::string_view all(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-  const std::string_view head("dataWindow\0box2i\0\x10\0\0\0", 21);
-  return all.find(head) + head.size();
+  const std::size_t head = all.find(nameAndType);
+  EXPECT_NE(head, all.npos) << nameAndType;
+  return head + nameAndType.size() + 4;
+}
+
+void put(Bytes& bytes, std::size_t offset, std::uint32_t value) {
+  for (std::size_t i = 0; i < 4; ++i) bytes[offset + i] = static_cast<std::byte>(value >> (8 * i));
 }
 
 TEST_F(ForeignExr, DeclaredSizesAreNotBelieved) {
   const Bytes bytes = encodeExr(pattern({5, 3}, 3));
-  const std::size_t window = dataWindowOf(bytes);
-  ASSERT_LT(window, bytes.size());
+  const std::size_t window = valueOf(bytes, {"dataWindow\0box2i\0", 17});
   const auto declared = [&](std::uint32_t right, std::uint32_t bottom) {
     Bytes damaged = bytes;
-    for (std::size_t i = 0; i < 4; ++i) {
-      damaged[window + 8 + i] = static_cast<std::byte>(right >> (8 * i));
-      damaged[window + 12 + i] = static_cast<std::byte>(bottom >> (8 * i));
-    }
+    put(damaged, window + 8, right);
+    put(damaged, window + 12, bottom);
     return damaged;
   };
   ASSERT_EQ(declared(4, 2), bytes);
   EXPECT_FALSE(isTaken(declared(65534, 2), decode));
-  EXPECT_FALSE(isTaken(declared(65534, 16000), decode));
-  EXPECT_FALSE(isTaken(declared(0x7FFFFFFE, 0x7FFFFFFE), decode));
-  EXPECT_FALSE(isTaken(declared(0xFFFFFFFE, 0), decode));
+  EXPECT_THAT(refusalOf(declared(65534, 16000)), HasSubstr("data for 65535 x 16001 pixels"));
+  EXPECT_THAT(refusalOf(declared(0x7FFFFFFE, 0x7FFFFFFE)), HasSubstr("sides of 1 to 65535"));
+  EXPECT_THAT(refusalOf(declared(0xFFFFFFFE, 0)), HasSubstr("found -1 x 1"));
+}
+
+TEST_F(ForeignExr, DeclaredAttributesAreNotBelieved) {
+  const Bytes bytes = encodeExr(pattern({5, 3}, 3));
+  Bytes damaged = bytes;
+  put(damaged, valueOf(bytes, {"channels\0chlist\0", 16}) - 4, 0x7FFFFFFF);
+  EXPECT_THAT(refusalOf(damaged), HasSubstr("longer than the file"));
+
+  Imf::Header header(2, 2);
+  header.setPreviewImage(Imf::PreviewImage(2, 1));
+  const Bytes previewed = make({"Y"}, Imf::HALF, header);
+  EXPECT_TRUE(isTaken(previewed, decode));
+  damaged = previewed;
+  put(damaged, valueOf(previewed, {"preview\0preview\0", 16}), 0x20000002);
+  EXPECT_THAT(refusalOf(damaged), HasSubstr("a preview of another size"));
+}
+
+TEST_F(ForeignExr, TiledFilesAreReadButDeclaredTilesNotBelieved) {
+  Imf::Header header(2, 2);
+  header.setTileDescription(Imf::TileDescription(1, 2));
+  header.channels().insert("Y", Imf::Channel(Imf::FLOAT));
+  const float samples[] = {1, 2, 3, 4};
+  Imf::FrameBuffer buffer;
+  buffer.insert("Y", Imf::Slice::Make(Imf::FLOAT, samples, header.dataWindow(), 4, 8));
+  {
+    Imf::TiledOutputFile output(file_.c_str(), header, 0);
+    output.setFrameBuffer(buffer);
+    output.writeTiles(0, 1, 0, 0);
+  }
+  const Bytes bytes = readFile(file_, 1 << 20);
+  EXPECT_THAT(decode(bytes).row(1), ElementsAre(3, 4));
+
+  const std::size_t tiles = valueOf(bytes, {"tiles\0tiledesc\0", 15});
+  Bytes damaged = bytes;
+  put(damaged, tiles, 0);
+  EXPECT_THAT(refusalOf(damaged), HasSubstr("tiles without pixels"));
+  put(damaged, tiles, 60000);
+  put(damaged, tiles + 4, 60000);
+  EXPECT_THAT(refusalOf(damaged), HasSubstr("blocks larger"));
+  damaged = bytes;
+  const std::size_t window = valueOf(bytes, {"dataWindow\0box2i\0", 17});
+  put(damaged, window + 8, 1000);
+  put(damaged, window + 12, 1000);
+  EXPECT_THAT(refusalOf(damaged), HasSubstr("more tiles"));
+  EXPECT_LT(takenBitFlips(bytes, decode), 8 * bytes.size());
+}
+
+TEST(Exr, SeveralPartsAreRefused) {
+  Bytes bytes = encodeExr(pattern({5, 3}, 3));
+  bytes[5] |= std::byte{0x10};
+  EXPECT_THAT(refusalOf(bytes), HasSubstr("a flat OpenEXR picture of one part"));
 }
 
 }  // namespace

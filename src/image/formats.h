@@ -28,6 +28,10 @@ Picture decodeExr(std::span<const std::byte> bytes, const std::filesystem::path&
 /// float32; every sample as it is.
 std::vector<std::byte> encodeExr(const Picture& linear);
 
+/// OpenEXR's densest schemes (DWA) keep 2 bytes of 64 equal samples and deflate them, at best to a
+/// 1032nd.
+inline constexpr double kExrSamplesPerByte = 64 / 2 * 1032;
+
 inline constexpr int kMaxPictureSide = 65535;
 inline constexpr std::uint64_t kMaxPicturePixels = 1ULL << 30;
 

@@ -25,7 +25,7 @@ struct IntensityLine {
 class IntensityReader {
  public:
   IntensityReader(std::string_view text, const std::filesystem::path& source)
-      : source_(source), lines_(text, source) {}
+      : lines_(text, source) {}
 
   std::vector<IntensityLine> read() {
     bool header = false;
@@ -54,7 +54,6 @@ class IntensityReader {
     result_.push_back(std::move(line));
   }
 
-  const std::filesystem::path& source_;
   LightLines lines_;
   std::vector<IntensityLine> result_;
 };
