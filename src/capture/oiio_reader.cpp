@@ -236,8 +236,6 @@ Cost costOf(const OIIO::ImageSpec& spec, PhotographFormat format, std::uint64_t 
       return {false, 64 * kKibibyte + row * (height + kRowsPerCall)};
     case PhotographFormat::Pnm:
       return {false, fileBytes + 64 * kKibibyte + kRowsPerCall * row};
-    case PhotographFormat::WebP:
-      return {false, fileBytes + 16 * pixels};
     default:
       return {false, fileBytes + 24 * pixels};
   }

@@ -5,6 +5,7 @@
 
 #include "capture/jpeg_reader.h"
 #include "capture/oiio_reader.h"
+#include "capture/webp_reader.h"
 #include "core/memory.h"
 #include "illum/error.h"
 
@@ -36,8 +37,9 @@ PhotographHeader readHeader(FilePool& pool, std::size_t file, std::uint64_t memo
   if (const auto declared = declaredSize(path, format, head)) {
     checkDeclaredSize(path, *declared, memoryBytes);
   }
-  PhotographHeader header = format == PhotographFormat::Jpeg
-                                ? readJpegHeader(pool, file)
+  PhotographHeader header = format == PhotographFormat::Jpeg ? readJpegHeader(pool, file)
+                            : format == PhotographFormat::WebP
+                                ? readWebpHeader(pool, file)
                                 : readOiioHeader(pool, file, format, head);
   if (header.stored.width < 1 || header.stored.height < 1 ||
       std::max(header.stored.width, header.stored.height) > kLongestSide) {
@@ -51,6 +53,7 @@ PhotographHeader readHeader(FilePool& pool, std::size_t file, std::uint64_t memo
 std::unique_ptr<PhotographReader> openReader(FilePool& pool, std::size_t file,
                                              const PhotographHeader& header) {
   if (header.format == PhotographFormat::Jpeg) return openJpegReader(pool, file, header);
+  if (header.format == PhotographFormat::WebP) return openWebpReader(pool, file, header);
   return openOiioReader(pool, file, header);
 }
 

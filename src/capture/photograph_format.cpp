@@ -46,11 +46,10 @@ bool has(std::span<const std::byte> head, std::size_t at, std::string_view text)
                     [](char c, std::byte b) { return static_cast<std::byte>(c) == b; });
 }
 
-std::uint32_t number(std::span<const std::byte> head, std::size_t at, int bytes, bool bigEndian) {
+std::uint32_t bigEndian(std::span<const std::byte> head, std::size_t at) {
   std::uint32_t value = 0;
-  for (int i = 0; i < bytes; ++i) {
-    const std::size_t place = at + static_cast<std::size_t>(bigEndian ? i : bytes - 1 - i);
-    value = value << 8 | std::to_integer<std::uint32_t>(head[place]);
+  for (std::size_t i = 0; i < 4; ++i) {
+    value = value << 8 | std::to_integer<std::uint32_t>(head[at + i]);
   }
   return value;
 }
@@ -84,24 +83,6 @@ std::optional<PhotographFormat> formatOfBytes(std::span<const std::byte> head) {
   return std::nullopt;
 }
 
-// RIFF container of WebP: the first chunk is VP8X (canvas), VP8L or VP8.
-std::optional<Size> webpSize(std::span<const std::byte> head) {
-  if (head.size() < 30) return std::nullopt;
-  if (has(head, 12, "VP8X")) {
-    return Size{static_cast<int>(number(head, 24, 3, false)) + 1,
-                static_cast<int>(number(head, 27, 3, false)) + 1};
-  }
-  if (has(head, 12, "VP8L")) {
-    const std::uint32_t bits = number(head, 21, 4, false);
-    return Size{static_cast<int>(bits & 0x3fff) + 1, static_cast<int>(bits >> 14 & 0x3fff) + 1};
-  }
-  if (has(head, 12, "VP8 ")) {
-    return Size{static_cast<int>(number(head, 26, 2, false) & 0x3fff),
-                static_cast<int>(number(head, 28, 2, false) & 0x3fff)};
-  }
-  return std::nullopt;
-}
-
 std::optional<Size> sizeFromNumbers(std::uint32_t width, std::uint32_t height) {
   if (width > 0x7fffffff || height > 0x7fffffff) return std::nullopt;
   return Size{static_cast<int>(width), static_cast<int>(height)};
@@ -111,9 +92,8 @@ std::optional<Size> sizeFromNumbers(std::uint32_t width, std::uint32_t height) {
 std::optional<Size> jpeg2000Size(std::span<const std::byte> head) {
   for (std::size_t at = 0; at + 24 <= head.size(); ++at) {
     if (!has(head, at, "\xff\x4f\xff\x51")) continue;
-    const std::uint32_t right = number(head, at + 8, 4, true),
-                        bottom = number(head, at + 12, 4, true);
-    const std::uint32_t left = number(head, at + 16, 4, true), top = number(head, at + 20, 4, true);
+    const std::uint32_t right = bigEndian(head, at + 8), bottom = bigEndian(head, at + 12);
+    const std::uint32_t left = bigEndian(head, at + 16), top = bigEndian(head, at + 20);
     if (left >= right || top >= bottom) return std::nullopt;
     return sizeFromNumbers(right - left, bottom - top);
   }
@@ -126,8 +106,7 @@ std::optional<Size> heifSize(std::span<const std::byte> head) {
   std::optional<Size> largest;
   for (std::size_t at = 0; at + 16 <= head.size(); ++at) {
     if (!has(head, at, "ispe")) continue;
-    const auto size =
-        sizeFromNumbers(number(head, at + 8, 4, true), number(head, at + 12, 4, true));
+    const auto size = sizeFromNumbers(bigEndian(head, at + 8), bigEndian(head, at + 12));
     if (size && (!largest || size->pixels() > largest->pixels())) largest = size;
   }
   return largest;
@@ -144,8 +123,8 @@ std::string_view titleOf(PhotographFormat format) {
 }
 
 bool decodesWhenOpened(PhotographFormat format) {
-  return format == PhotographFormat::WebP || format == PhotographFormat::Jpeg2000 ||
-         format == PhotographFormat::Heif || format == PhotographFormat::Pnm;
+  return format == PhotographFormat::Jpeg2000 || format == PhotographFormat::Heif ||
+         format == PhotographFormat::Pnm;
 }
 
 std::optional<PhotographFormat> formatOfName(const std::filesystem::path& file) {
@@ -183,9 +162,6 @@ std::optional<Size> declaredSize(const std::filesystem::path& file, PhotographFo
                                  std::span<const std::byte> head) {
   std::optional<Size> size;
   switch (format) {
-    case PhotographFormat::WebP:
-      size = webpSize(head);
-      break;
     case PhotographFormat::Jpeg2000:
       size = jpeg2000Size(head);
       break;

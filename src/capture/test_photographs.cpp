@@ -1,17 +1,25 @@
 #include "capture/test_photographs.h"
 
 #include <OpenImageIO/imageio.h>
+#include <OpenImageIO/strutil.h>
 #include <png.h>
 #include <unistd.h>
+#include <webp/encode.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>
+#include <iterator>
 #include <memory>
 #include <numbers>
 #include <numeric>
+#include <span>
 #include <stdexcept>
+
+#include "core/files.h"
 
 namespace illum::test {
 namespace {
@@ -31,16 +39,62 @@ void setAttribute(OIIO::ImageSpec& spec, const std::string& name, const Attribut
   }
 }
 
-std::vector<float> valuesOf(const Sketch& sketch) {
-  std::vector<float> values;
+std::vector<double> valuesOf(const Sketch& sketch) {
+  std::vector<double> values;
   for (int y = 0; y < sketch.size.height; ++y) {
     for (int x = 0; x < sketch.size.width; ++x) {
-      for (int c = 0; c < sketch.channels; ++c) {
-        values.push_back(static_cast<float>(sketch.value(x, y, c)));
-      }
+      for (int c = 0; c < sketch.channels; ++c) values.push_back(sketch.value(x, y, c));
     }
   }
   return values;
+}
+
+// In the type itself, so that no library's rounding comes in.
+std::vector<std::byte> samplesOf(const Sketch& sketch) {
+  std::vector<std::byte> samples;
+  const auto put = [&](auto sample) {
+    for (const std::byte byte : std::as_bytes(std::span(&sample, 1))) samples.push_back(byte);
+  };
+  for (const double value : valuesOf(sketch)) {
+    if (sketch.type == SampleType::Byte) put(static_cast<std::uint8_t>(std::lround(255 * value)));
+    if (sketch.type == SampleType::Word) {
+      put(static_cast<std::uint16_t>(std::lround(65535 * value)));
+    }
+    if (sketch.type == SampleType::Float) put(static_cast<float>(value));
+  }
+  return samples;
+}
+
+void append(std::vector<std::byte>& bytes, std::string_view text) {
+  for (const char c : text) bytes.push_back(static_cast<std::byte>(c));
+}
+
+void append(std::vector<std::byte>& bytes, std::span<const std::byte> more) {
+  std::ranges::copy(more, std::back_inserter(bytes));
+}
+
+void appendNumber(std::vector<std::byte>& bytes, std::uint32_t number, int count, bool bigEndian) {
+  for (int i = 0; i < count; ++i) {
+    bytes.push_back(static_cast<std::byte>(number >> 8 * (bigEndian ? count - 1 - i : i)));
+  }
+}
+
+// A TIFF structure with one entry: Orientation, SHORT, 1 value.
+std::vector<std::byte> exifBlock(int orientation) {
+  std::vector<std::byte> bytes;
+  append(bytes, std::string_view("MM\0*\0\0\0\x08\0\x01", 10));
+  append(bytes, std::string_view("\x01\x12\0\x03\0\0\0\x01\0", 9));
+  bytes.push_back(static_cast<std::byte>(orientation));
+  append(bytes, std::string_view("\0\0\0\0\0\0", 6));
+  return bytes;
+}
+
+void appendRiffChunk(std::vector<std::byte>& bytes, std::string_view name,
+                     const std::vector<std::byte>& content) {
+  append(bytes, name);
+  appendNumber(bytes, static_cast<std::uint32_t>(content.size()), 4, false);
+  append(bytes, content);
+  if (content.size() % 2 != 0) bytes.push_back(std::byte{});
 }
 
 [[noreturn]] void fail(const std::filesystem::path& file, const std::string& why) {
@@ -82,15 +136,20 @@ void write(const std::filesystem::path& file, const Sketch& sketch) {
   OIIO::ImageSpec spec(sketch.size.width, sketch.size.height, sketch.channels,
                        typeDescOf(sketch.type));
   for (const auto& [name, attribute] : sketch.attributes) setAttribute(spec, name, attribute);
+  const auto names = sketch.attributes.find("channelnames");
+  if (names != sketch.attributes.end()) {
+    spec.channelnames = OIIO::Strutil::splits(std::get<std::string>(names->second), ",");
+  }
+  if (sketch.attributes.contains("oiio:half")) spec.format = OIIO::TypeHalf;
   const auto tile = sketch.attributes.find("tile");
   if (tile != sketch.attributes.end()) {
     spec.tile_width = spec.tile_height = std::get<int>(tile->second);
   }
   const auto output = OIIO::ImageOutput::create(file.string());
   if (!output) fail(file, OIIO::geterror());
-  const std::vector<float> values = valuesOf(sketch);
-  if (!output->open(file.string(), spec) || !output->write_image(OIIO::TypeFloat, values.data()) ||
-      !output->close()) {
+  const std::vector<std::byte> samples = samplesOf(sketch);
+  if (!output->open(file.string(), spec) ||
+      !output->write_image(typeDescOf(sketch.type), samples.data()) || !output->close()) {
     fail(file, output->geterror());
   }
 }
@@ -108,19 +167,73 @@ void writeInterlacedPng(const std::filesystem::path& file, const Sketch& sketch)
                kTypes[static_cast<std::size_t>(sketch.channels)], PNG_INTERLACE_ADAM7,
                PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
   png_write_info(png, info);
-  std::vector<png_byte> samples;
-  for (const float value : valuesOf(sketch)) {
-    samples.push_back(static_cast<png_byte>(std::lround(255 * value)));
-  }
+  std::vector<std::byte> samples = samplesOf(sketch);
   std::vector<png_bytep> rows;
   const std::size_t rowBytes =
       static_cast<std::size_t>(sketch.size.width) * static_cast<std::size_t>(sketch.channels);
   for (int y = 0; y < sketch.size.height; ++y) {
-    rows.push_back(samples.data() + static_cast<std::size_t>(y) * rowBytes);
+    rows.push_back(reinterpret_cast<png_bytep>(samples.data()) +
+                   static_cast<std::size_t>(y) * rowBytes);
   }
   png_write_image(png, rows.data());
   png_write_end(png, info);
   png_destroy_write_struct(&png, &info);
+}
+
+void writeLosslessWebp(const std::filesystem::path& file, const Sketch& sketch) {
+  const std::vector<std::byte> samples = samplesOf(sketch);
+  const auto* pixels = reinterpret_cast<const std::uint8_t*>(samples.data());
+  std::uint8_t* out = nullptr;
+  const auto encode = sketch.channels == 4 ? WebPEncodeLosslessRGBA : WebPEncodeLosslessRGB;
+  const std::size_t bytes = encode(pixels, sketch.size.width, sketch.size.height,
+                                   sketch.size.width * sketch.channels, &out);
+  std::vector<std::byte> encoded;
+  append(encoded, std::as_bytes(std::span(out, bytes)));
+  WebPFree(out);
+  writeBytes(file, encoded);
+}
+
+void writeWordPnm(const std::filesystem::path& file, const Sketch& sketch) {
+  std::vector<std::byte> bytes;
+  append(bytes, (sketch.channels == 1 ? "P5 " : "P6 ") + std::to_string(sketch.size.width) + " " +
+                    std::to_string(sketch.size.height) + " 65535\n");
+  for (const double value : valuesOf(sketch)) {
+    appendNumber(bytes, static_cast<std::uint32_t>(std::lround(65535 * value)), 2, true);
+  }
+  writeBytes(file, bytes);
+}
+
+void addPngExif(const std::filesystem::path& file, int orientation) {
+  constexpr std::size_t kAfterHeader = 33;
+  const std::vector<std::byte> png = bytesOf(file), exif = exifBlock(orientation);
+  std::vector<std::byte> chunk;
+  append(chunk, "eXIf");
+  append(chunk, exif);
+  std::vector<std::byte> out;
+  append(out, std::span(png).first(kAfterHeader));
+  appendNumber(out, static_cast<std::uint32_t>(exif.size()), 4, true);
+  append(out, chunk);
+  appendNumber(out, crc32Of(chunk), 4, true);
+  append(out, std::span(png).subspan(kAfterHeader));
+  writeBytes(file, out);
+}
+
+void addWebpChunks(const std::filesystem::path& file, Size size, int orientation,
+                   const std::vector<std::byte>& profile) {
+  constexpr std::size_t kRiffHead = 12;
+  const std::vector<std::byte> webp = bytesOf(file);
+  std::vector<std::byte> canvas, body;
+  appendNumber(canvas, 0x08u | (profile.empty() ? 0u : 0x20u), 4, false);  // Exif, ICC
+  appendNumber(canvas, static_cast<std::uint32_t>(size.width - 1), 3, false);
+  appendNumber(canvas, static_cast<std::uint32_t>(size.height - 1), 3, false);
+  append(body, "WEBP");
+  appendRiffChunk(body, "VP8X", canvas);
+  if (!profile.empty()) appendRiffChunk(body, "ICCP", profile);
+  append(body, std::span(webp).subspan(kRiffHead));
+  appendRiffChunk(body, "EXIF", exifBlock(orientation));
+  std::vector<std::byte> out;
+  appendRiffChunk(out, "RIFF", body);
+  writeBytes(file, out);
 }
 
 std::string lightFileText(int count, const std::function<std::string(int)>& name) {

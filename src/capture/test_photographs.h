@@ -52,6 +52,17 @@ void write(const std::filesystem::path& file, const Sketch& sketch);
 /// With Adam7. Bytes only.
 void writeInterlacedPng(const std::filesystem::path& file, const Sketch& sketch);
 
+/// Without loss, straight alpha, which OpenImageIO does not write. Bytes only.
+void writeLosslessWebp(const std::filesystem::path& file, const Sketch& sketch);
+/// A binary PPM or PGM with 16 bits a sample, which OpenImageIO does not write.
+void writeWordPnm(const std::filesystem::path& file, const Sketch& sketch);
+
+/// Puts an Exif block with an orientation into a PNG or WebP file, and an ICC profile into a WebP
+/// file: OpenImageIO writes none there.
+void addPngExif(const std::filesystem::path& file, int orientation);
+void addWebpChunks(const std::filesystem::path& file, Size size, int orientation,
+                   const std::vector<std::byte>& profile);
+
 /// "N\n" and N lines that name `name(i)`, with directions all over the upper hemisphere.
 std::string lightFileText(int count, const std::function<std::string(int)>& name);
 
