@@ -1,0 +1,46 @@
+"""The manual: every ```sh block of a page is run, in order, beside a folder of photographs."""
+
+import os
+import re
+import shutil
+import subprocess
+
+import pytest
+
+from conftest import BINARY, ROOT
+
+PAGES = sorted([*ROOT.glob("docs/guide/*.md"), ROOT / "README.md"])
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
+def test_examples(stack, tmp_path, page):
+    blocks = re.findall(r"^```sh\n(.*?)^```$", page.read_text(), re.MULTILINE | re.DOTALL)
+    assert blocks, "a page without an example"
+    shutil.copytree(stack, tmp_path / "photographs")
+    environment = {**os.environ, "PATH": f"{BINARY.parent}:{os.environ['PATH']}"}
+    for block in blocks:
+        run = subprocess.run(["bash", "-euo", "pipefail", "-c", block], cwd=tmp_path,
+                             env=environment, capture_output=True, text=True, timeout=300)
+        assert run.returncode == 0, f"{block}\n{run.stdout}\n{run.stderr}"
+
+
+def links_of(page):
+    text = re.sub(r"^```.*?^```$", "", page.read_text(), flags=re.MULTILINE | re.DOTALL)
+    return re.findall(r"\]\(([^)#\s]+)", text)
+
+
+@pytest.mark.parametrize("page", sorted([*ROOT.glob("*.md"), *ROOT.glob("docs/**/*.md")]),
+                         ids=lambda page: page.name)
+def test_links_lead_somewhere(page):
+    for link in links_of(page):
+        if "://" not in link:
+            assert (page.parent / link).exists(), link
+
+
+def test_every_option_is_in_the_manual(binary):
+    """What `--help` offers is explained on some page."""
+    manual = "".join(page.read_text() for page in PAGES)
+    for command in ("build", "relight", "evaluate", "info", "verify"):
+        text = subprocess.run([binary, command, "--help"], capture_output=True, text=True).stdout
+        for option in set(re.findall(r"--[a-z][a-z-]+", text)) - {"--help", "--output"}:
+            assert option in manual, f"illum {command} {option}"
