@@ -130,7 +130,7 @@ class HeaderWalk {
 
   /// Blocks and tiles may exceed the picture; a few million samples are granted to every file.
   void checkBlock(std::int64_t width, std::int64_t height) const {
-    constexpr double kGranted = 1 << 25;
+    constexpr double kGranted = 1 << 22;
     const double samples =
         static_cast<double>(width) * static_cast<double>(height) * static_cast<double>(channels_);
     if (samples > kGranted + kExrSamplesPerByte * static_cast<double>(file_.size()))
