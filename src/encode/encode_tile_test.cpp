@@ -107,8 +107,8 @@ TEST(EncodeTile, LossyCodingsKeepTheirBudgets) {
   }
 }
 
-// A uniform quantiser of step s in an orthonormal transform errs by at most s/2 a coefficient, so by
-// s/2 rms; rounding to whole codes adds 1/2 at most.
+// A uniform quantiser of step s in an orthonormal transform errs by at most s/2 a coefficient, so
+// by s/2 rms; rounding to whole codes adds 1/2 at most.
 TEST(EncodeTile, JpegErrorIsBoundedByItsStep) {
   const PlaneCodes codes = randomCodes(3, {64, 64}, 8, 5);
   for (const int quality : {100, 90, 75, 60}) {
@@ -160,8 +160,8 @@ TEST(EncodeTile, ChannelsWithoutAPlaneAreNearlyFree) {
   }
 }
 
-// What coding lets seep from one cell of an atlas into another: the texels of a flat cell beside busy
-// ones. docs/performance.md reports the figures that this prints.
+// What coding lets seep from one cell of an atlas into another: the texels of a flat cell beside
+// busy ones. docs/performance.md reports the figures that this prints.
 TEST(EncodeTile, LittleSeepsFromABusyCellIntoAFlatOne) {
   constexpr Size kTile{120, 120};
   PlaneCodes codes = randomCodes(12, kTile, 8, 17);  // 2x2 cells
