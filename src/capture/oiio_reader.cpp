@@ -11,7 +11,6 @@
 #include <mutex>
 #include <string>
 
-#include "capture/png_chunks.h"
 #include "illum/error.h"
 
 namespace illum {
@@ -211,14 +210,12 @@ struct Cost {
 // What OpenImageIO 2.4 holds while a picture is open; oiio_reader's tests hold it to what is
 // measured.
 Cost costOf(const OIIO::ImageSpec& spec, PhotographFormat format, std::uint64_t fileBytes,
-            bool interlacedPng, bool packedBmp) {
+            bool packedBmp) {
   const std::uint64_t row = spec.scanline_bytes(true) + 4u * static_cast<unsigned>(spec.width);
   const auto height = static_cast<std::uint64_t>(spec.height);
   const std::uint64_t pixels = height * static_cast<unsigned>(spec.width);
   const auto together = static_cast<unsigned>(rowsTogether(spec, format));
   switch (format) {
-    case PhotographFormat::Png:
-      return {!interlacedPng, 128 * kKibibyte + 6 * row + (interlacedPng ? row * height : 0)};
     case PhotographFormat::Tiff:
       if (together == 0) return {false, fileBytes + 256 * kKibibyte + (kRowsPerCall + 4) * row};
       return {spec.get_string_attribute("planarconfig") != "separate",
@@ -417,7 +414,6 @@ class OiioReader final : public PhotographReader {
 
 PhotographHeader readOiioHeader(FilePool& pool, std::size_t file, PhotographFormat format,
                                 std::span<const std::byte> head) {
-  const bool interlaced = format == PhotographFormat::Png && checkPngChunks(pool, file);
   const std::filesystem::path path = pool.path(file);
   OpenPicture picture(pool, file, format);
   const OIIO::ImageSpec& spec = picture.spec();
@@ -434,8 +430,8 @@ PhotographHeader readOiioHeader(FilePool& pool, std::size_t file, PhotographForm
   header.type = sampleTypeOf(spec);
   header.profile = profileOf(spec);
   readTransfer(spec, path, header);
-  const Cost cost = costOf(spec, format, pool.bytes(file), interlaced,
-                           format == PhotographFormat::Bmp && isPackedBmp(head));
+  const Cost cost =
+      costOf(spec, format, pool.bytes(file), format == PhotographFormat::Bmp && isPackedBmp(head));
   header.sequential = cost.sequential;
   // Our own chunk of rows comes on top, as does the header's copy.
   header.decoderBytes =

@@ -5,6 +5,7 @@
 
 #include "capture/jpeg_reader.h"
 #include "capture/oiio_reader.h"
+#include "capture/png_reader.h"
 #include "capture/webp_reader.h"
 #include "core/memory.h"
 #include "illum/error.h"
@@ -27,6 +28,20 @@ void checkDeclaredSize(const std::filesystem::path& path, Size size, std::uint64
                                   textFromBytes(memoryBytes));
 }
 
+PhotographHeader readHeaderOf(FilePool& pool, std::size_t file, PhotographFormat format,
+                              std::span<const std::byte> head) {
+  switch (format) {
+    case PhotographFormat::Jpeg:
+      return readJpegHeader(pool, file);
+    case PhotographFormat::Png:
+      return readPngHeader(pool, file);
+    case PhotographFormat::WebP:
+      return readWebpHeader(pool, file);
+    default:
+      return readOiioHeader(pool, file, format, head);
+  }
+}
+
 }  // namespace
 
 PhotographHeader readHeader(FilePool& pool, std::size_t file, std::uint64_t memoryBytes) {
@@ -37,10 +52,7 @@ PhotographHeader readHeader(FilePool& pool, std::size_t file, std::uint64_t memo
   if (const auto declared = declaredSize(path, format, head)) {
     checkDeclaredSize(path, *declared, memoryBytes);
   }
-  PhotographHeader header = format == PhotographFormat::Jpeg ? readJpegHeader(pool, file)
-                            : format == PhotographFormat::WebP
-                                ? readWebpHeader(pool, file)
-                                : readOiioHeader(pool, file, format, head);
+  PhotographHeader header = readHeaderOf(pool, file, format, head);
   if (header.stored.width < 1 || header.stored.height < 1 ||
       std::max(header.stored.width, header.stored.height) > kLongestSide) {
     throw inputError(
@@ -52,9 +64,16 @@ PhotographHeader readHeader(FilePool& pool, std::size_t file, std::uint64_t memo
 
 std::unique_ptr<PhotographReader> openReader(FilePool& pool, std::size_t file,
                                              const PhotographHeader& header) {
-  if (header.format == PhotographFormat::Jpeg) return openJpegReader(pool, file, header);
-  if (header.format == PhotographFormat::WebP) return openWebpReader(pool, file, header);
-  return openOiioReader(pool, file, header);
+  switch (header.format) {
+    case PhotographFormat::Jpeg:
+      return openJpegReader(pool, file, header);
+    case PhotographFormat::Png:
+      return openPngReader(pool, file, header);
+    case PhotographFormat::WebP:
+      return openWebpReader(pool, file, header);
+    default:
+      return openOiioReader(pool, file, header);
+  }
 }
 
 }  // namespace illum

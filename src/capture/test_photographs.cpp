@@ -2,6 +2,7 @@
 
 #include <OpenImageIO/imageio.h>
 #include <OpenImageIO/strutil.h>
+#include <lcms2.h>
 #include <png.h>
 #include <unistd.h>
 #include <webp/encode.h>
@@ -234,6 +235,34 @@ void addWebpChunks(const std::filesystem::path& file, Size size, int orientation
   std::vector<std::byte> out;
   appendRiffChunk(out, "RIFF", body);
   writeBytes(file, out);
+}
+
+namespace {
+
+std::vector<std::byte> savedProfile(cmsHPROFILE profile) {
+  cmsUInt32Number size = 0;
+  cmsSaveProfileToMem(profile, nullptr, &size);
+  std::vector<std::byte> bytes(size);
+  cmsSaveProfileToMem(profile, bytes.data(), &size);
+  cmsCloseProfile(profile);
+  return bytes;
+}
+
+}  // namespace
+
+std::vector<std::byte> powerProfile(double gamma, bool adobePrimaries) {
+  const cmsCIExyY white{0.3127, 0.3290, 1};
+  cmsCIExyYTRIPLE primaries{{0.64, 0.33, 1}, {0.30, 0.60, 1}, {0.15, 0.06, 1}};
+  if (adobePrimaries) primaries.Green = {0.21, 0.71, 1};
+  cmsToneCurve* curve = cmsBuildGamma(nullptr, gamma);
+  std::array<cmsToneCurve*, 3> curves{curve, curve, curve};
+  const cmsHPROFILE profile = cmsCreateRGBProfile(&white, &primaries, curves.data());
+  cmsFreeToneCurve(curve);
+  return savedProfile(profile);
+}
+
+std::vector<std::byte> displayProfile() {
+  return savedProfile(cmsCreate_sRGBProfile());
 }
 
 std::string lightFileText(int count, const std::function<std::string(int)>& name) {

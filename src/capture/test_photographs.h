@@ -63,6 +63,11 @@ void addPngExif(const std::filesystem::path& file, int orientation);
 void addWebpChunks(const std::filesystem::path& file, Size size, int orientation,
                    const std::vector<std::byte>& profile);
 
+/// An RGB profile with Rec.709's primaries (or those of Adobe RGB (1998)) and a pure power.
+std::vector<std::byte> powerProfile(double gamma, bool adobePrimaries);
+/// The profile that most sRGB pictures carry, or lcms's version of it.
+std::vector<std::byte> displayProfile();
+
 /// "N\n" and N lines that name `name(i)`, with directions all over the upper hemisphere.
 std::string lightFileText(int count, const std::function<std::string(int)>& name);
 
