@@ -88,6 +88,7 @@ class BasisTable {
   int resolution_ = 0, columns_ = 0;
   std::vector<float> values_, southPole_;
   double storedError_ = kDefaultStoredError;
+  std::vector<std::byte> encoded_;    // of the last encode() or decode()
   std::vector<double> storedErrors_;  // empty: storedError_ holds for all
 };
 

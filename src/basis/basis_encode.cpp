@@ -163,6 +163,7 @@ Header headerOf(const BasisTable& table) {
 }  // namespace
 
 std::vector<std::byte> BasisTable::encode() {
+  if (!encoded_.empty() && decode(encoded_, "basis table") == *this) return encoded_;
   requireFinite(values_);
   requireFinite(southPole_);
   const TableShape shape(*this);
@@ -197,7 +198,8 @@ std::vector<std::byte> BasisTable::encode() {
     ++header.bytesPerCode;
   }
   SectionedPayload payload = payloadOf(layout, coded, codes, header.bytesPerCode);
-  return fileOf(header, smallestDeflated(payload));
+  encoded_ = fileOf(header, smallestDeflated(payload));
+  return encoded_;
 }
 
 }  // namespace illum

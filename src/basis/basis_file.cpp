@@ -245,6 +245,7 @@ BasisTable BasisTable::decode(std::span<const std::byte> bytes, const std::strin
   BasisTable table(header.domain, header.resolution, static_cast<int>(header.columns));
   TableDecoder decoder(header, layout, payload, source, table);
   for (std::size_t column = 0; column < header.columns; ++column) decoder.decodeColumn(column);
+  table.encoded_.assign(bytes.begin(), bytes.end());
   return table;
 }
 

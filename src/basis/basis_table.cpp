@@ -119,11 +119,13 @@ void BasisTable::setStoredError(double relative) {
   assert(relative > 0);
   storedError_ = relative;
   storedErrors_.clear();
+  encoded_.clear();
 }
 
 void BasisTable::setStoredErrors(std::vector<double> absolutePerColumn) {
   assert(absolutePerColumn.size() == static_cast<std::size_t>(columns_));
   storedErrors_ = std::move(absolutePerColumn);
+  encoded_.clear();
 }
 
 bool operator==(const BasisTable& a, const BasisTable& b) {

@@ -77,10 +77,10 @@ void ColumnCoder::setTarget(const CodedColumn* reference, int distance) {
 CodedColumn ColumnCoder::codeWithin(double error, const CodedColumn* reference, int distance) {
   setTarget(reference, distance);
   // A step of one and a half times the error keeps it whatever the values are: no rounding error
-  // exceeds kRoundingThreshold steps. From there up to sixteen times as much is tried.
+  // exceeds kRoundingThreshold steps. From there up to 128 times as much is tried.
   int low = unitCodeFrom(1.5 * error / unitsPerCode(0));
   low = std::max(low, unitCodeFrom(largest_ / kLargestField));
-  int high = std::min(low + 64, kMaxUnitCode + 1);
+  int high = std::min(low + 16 * 7, kMaxUnitCode + 1);
   CodedColumn best, trial;
   code(low, best);
   while (high - low > 1) {

@@ -7,10 +7,11 @@
 
 namespace illum {
 
-/// Where a sample's prediction comes from. d is the signed distance in samples to its nearest known
-/// neighbour along one axis; all divisions round to nearest, halves up: (a + 2^(n-1)) >> n.
+/// Where a sample's prediction comes from: the first of these (after None) whose samples all exist
+/// and are known. v[-d] is the nearest known sample along the axis on the side toward the grid's
+/// centre, v[+d] the one opposite. Divisions round to nearest, halves up: (a + 2^(n-1)) >> n.
 enum class Prediction : std::uint8_t {
-  None,                  ///< 0
+  None,                  ///< 0, for the grid's centre
   Cubic,                 ///< (9 v[-d] + 9 v[+d] - v[-3d] - v[+3d]) / 16
   OneSided,              ///< (6 v[-d] + 3 v[+d] - v[-3d]) / 8
   Linear,                ///< (v[-d] + v[+d]) / 2
@@ -22,7 +23,7 @@ enum class Prediction : std::uint8_t {
 /// One sample in coding order.
 struct CodingStep {
   std::uint32_t sample;  ///< row * side + column
-  std::int32_t d;        ///< in samples: +-stride along a row, +-stride * side along a column
+  std::int32_t d;        ///< in samples: +-stride along the row, +-stride * side along the column
   Prediction prediction;
   std::uint8_t level;  ///< log2 of the stride
 };
@@ -31,11 +32,11 @@ struct CodingStep {
 inline constexpr std::int32_t kMaxFieldValue = 1 << 26;
 
 /// The order in which a square's reachable samples are coded. The grid's centre is row and column
-/// side / 2. First the centre; then for strides 2^n, …, 4, 2, 1 (2^n: the largest below side / 2 +
-/// 1) two passes: samples that are an odd multiple of the stride from the centre along the row and
-/// an even one along the column, predicted along the row; then those that are any multiple along
-/// the row and an odd one along the column, predicted along the column. Each pass runs by rows,
-/// then by columns. `stepsPerLevel` counts from the coarsest (the centre alone) on.
+/// side / 2 (rounded down) and comes first. Then for strides 2^n, …, 4, 2, 1 (2^n: the largest that
+/// is at most side / 2) two passes: samples that are an odd multiple of the stride from the centre
+/// along the row and an even one along the column, predicted along the row; then those that are any
+/// multiple along the row and an odd one along the column, predicted along the column. Each pass
+/// runs by rows, then by columns.
 struct CodingOrder {
   explicit CodingOrder(int resolution);
   std::vector<CodingStep> steps;
