@@ -15,8 +15,8 @@
 namespace illum {
 namespace {
 
-// The table's share of the error at an unseen light: 0.04 dB.
-constexpr double kTableShare = 0.01;
+// The table's share of the error at an unseen light: 0.01 dB.
+constexpr double kTableShare = 0.002;
 constexpr int kTableRings = 12;
 
 // Rotates the planes into the form that is stored; see orthonormalRotation.

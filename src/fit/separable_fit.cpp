@@ -18,8 +18,9 @@
 namespace illum {
 namespace {
 
-// Numbers of coefficients that are tried: orders 2 to 5, so that relighting stays cheap.
-constexpr std::array kUsualCoefficients{9, 16, 25, 36};
+// Numbers of coefficients that are tried: the paper found 16 to 25 sufficient (section 4.1), and
+// relighting costs in proportion.
+constexpr std::array kUsualCoefficients{9, 16, 25};
 // More coefficients have to be worth their bytes and their time.
 constexpr double kCoefficientToleranceDecibels = 0.05;
 // What a smaller number of coefficients may gain before the user is told.
@@ -124,18 +125,6 @@ BasisTable rotatedTable(const AnalyticBasis& basis, const PlaneRotation& rotatio
   return chooseTable(request);
 }
 
-// lights x K: what the table says the basis' own functions are.
-Matrix namedValues(const BasisTable& table, const PlaneRotation& rotation,
-                   std::span<const Direction> lights) {
-  Matrix stored(lights.size(), table.columns());
-  std::vector<float> row(static_cast<std::size_t>(table.columns()));
-  for (std::size_t i = 0; i < lights.size(); ++i) {
-    table.evaluate(lights[i], row);
-    for (int k = 0; k < table.columns(); ++k) stored(i, k) = row[k];
-  }
-  return stored * rotation.planesFromOld;
-}
-
 // Plane 3j+c: coefficient j of the rotated functions, channel c of the rotated colours.
 PlaneOperator operatorOf(const Matrix& perChannel, const Eigen::Matrix3d& colour) {
   PlaneOperator result;
@@ -187,14 +176,11 @@ Fit fitSeparable(std::span<const Direction> lights, const SampleStatistics& stat
       10.0, -std::max(chosen.decibels, meanDecibels(usedErrors(values * analytic, gram))) / 10);
   BasisTable table = rotatedTable(basis, rotation, planeRms, lights, error);
 
-  // Once more with what readers will see, so that planes and table agree.
-  const Matrix consistent =
-      coefficientOperator(basis, namedValues(table, rotation, lights), lights, method);
-  const Eigen::Matrix3d colour = colourRotation(moments, consistent);
+  const Eigen::Matrix3d colour = colourRotation(moments, rotated);
   fit.basisName = std::string(basis.name());
   fit.coefficients = basis.coefficients();
   fit.leaveOneOutDecibels = chosen.decibels;
-  fit.planes = operatorOf(rotation.planesFromOld * consistent, colour);
+  fit.planes = operatorOf(rotated, colour);
   fit.mixing = rowMajor(rotation.functionsFromOld.transpose());
   fit.choices = {fmt::format("coefficients: {} ({})", fit.coefficients,
                              options.coefficients == 0 ? "leave-one-out" : "given"),

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
-#include <filesystem>
 
 #include "fit/dense.h"
 #include "illum/colour.h"
@@ -13,13 +12,6 @@
 
 namespace illum::test {
 namespace {
-
-std::filesystem::path sharedData() {
-  const char* named = std::getenv("ILLUM_SHARED");
-  const std::filesystem::path shared =
-      named != nullptr ? named : std::filesystem::path(ILLUM_SOURCE_DIR) / ".." / "shared";
-  return shared / "data";
-}
 
 // The reader gives linear light; its inverse is what stands in the file, to 16 bits.
 std::vector<float> rgbSamples(const std::filesystem::path& file) {
@@ -42,6 +34,11 @@ std::uint8_t screenByte(float sample, bool linear) {
 
 }  // namespace
 
+std::filesystem::path sharedFolder() {
+  const char* named = std::getenv("ILLUM_SHARED");
+  return named != nullptr ? named : std::filesystem::path(ILLUM_SOURCE_DIR) / ".." / "shared";
+}
+
 std::vector<float> Stack::read(std::span<const int> chosen, std::size_t step) const {
   const std::size_t count = (pixels + step - 1) / step;
   std::vector<float> result(3 * chosen.size() * count);
@@ -56,7 +53,7 @@ std::vector<float> Stack::read(std::span<const int> chosen, std::size_t step) co
 }
 
 std::optional<Stack> sharedStack(const std::string& folder) {
-  const std::filesystem::path path = sharedData() / folder;
+  const std::filesystem::path path = sharedFolder() / "data" / folder;
   if (!std::filesystem::exists(path / "lights.lp")) return std::nullopt;
   Stack stack;
   for (const LightFileEntry& entry : readLightFile(path / "lights.lp").entries) {

@@ -1,6 +1,7 @@
 // Photograph stacks for this module's tests: those of ../shared/data where they are present.
 #pragma once
 
+#include <filesystem>
 #include <optional>
 #include <span>
 #include <string>
@@ -21,7 +22,10 @@ struct Stack {
   std::vector<float> read(std::span<const int> chosen, std::size_t step = 1) const;
 };
 
-/// The stack in `folder` of the shared data ($ILLUM_SHARED or ../shared), e.g.
+/// $ILLUM_SHARED or ../shared beside the repository; it may be missing.
+std::filesystem::path sharedFolder();
+
+/// The stack in `folder` of the shared data, e.g.
 /// "realrti01_door/stack". Empty where it is missing.
 std::optional<Stack> sharedStack(const std::string& folder);
 
