@@ -1,6 +1,6 @@
 // The normative sampled form of a light basis (docs/format.md, "basis.bin").
 //
-// Directions are charted as in Wong et al. 1997, section 4.2: a stereographic square per hemisphere,
+// Directions are charted as in Wong et al. 1997, section 4.2: a stereographic square a hemisphere,
 //   upper: x = (tan(theta/2) cos(phi) + 1)/2,  y = (tan(theta/2) sin(phi) + 1)/2,
 // the lower one alike with theta replaced by pi - theta. (The paper mirrors phi; our y is up.)
 #pragma once
@@ -16,8 +16,8 @@
 
 namespace illum {
 
-/// Which directions the light may come from. Hemisphere: z >= 0 is charted; below the horizon the value
-/// at the equator goes linearly in theta to a constant at the south pole (the paper's section 5).
+/// Which directions the light may come from. Hemisphere: z >= 0 is charted; below the horizon the
+/// equator's value goes linearly in theta to a constant at the south pole (the paper's section 5).
 enum class LightDomain { Hemisphere, Sphere };
 
 /// A point of the chart: square 0 is the upper hemisphere, 1 the lower; x, y in [0, 1].
@@ -29,11 +29,12 @@ ChartPoint chartFromDirection(Direction d);
 /// Inverse; points outside the disc continue the stereographic projection past the equator.
 Direction directionFromChart(ChartPoint p);
 
-/// Of a column's rms; with equal steps the true error stays just below it.
+/// How much encoding may change a column, relative to its rms: -72 dB.
 inline constexpr double kDefaultStoredError = 2.5e-4;
 
-/// `columns` scalar functions of direction as N x N vertex-centred samples a square plus a guard ring
-/// (so N+2 a side; sample (i, j) is at x = (i-1)/(N-1), y = (j-1)/(N-1)), interpolated by Catmull-Rom.
+/// `columns` scalar functions of direction as N x N vertex-centred samples a square plus a guard
+/// ring (so N+2 a side; sample (i, j) is at x = (i-1)/(N-1), y = (j-1)/(N-1)), interpolated by
+/// Catmull-Rom.
 class BasisTable {
  public:
   BasisTable() = default;
@@ -46,14 +47,14 @@ class BasisTable {
   int squares() const { return domain_ == LightDomain::Sphere ? 2 : 1; }
   int side() const { return resolution_ + 2; }
 
-  /// Fills every sample that interpolation can reach (the others, in the square's corners, become 0) and
-  /// the south pole's constant (the mean over the equator). `f` writes `columns` values for a direction;
-  /// it is asked on and up to three grid steps beyond the equator too.
+  /// Fills every sample that interpolation can reach (the others, in the square's corners, become
+  /// 0) and the south pole's constant (the mean over the equator). `f` writes `columns` values for
+  /// a direction; it is asked on and up to three grid steps beyond the equator too.
   void fill(const std::function<void(Direction, std::span<double>)>& f);
   /// The same for functions that know how they continue past their own square's equator.
   void fillChart(const std::function<void(ChartPoint, std::span<double>)>& f);
-  /// Sets the south pole's constants to the mean of the table's own values over the equator. fill() does
-  /// it; needed again after values() were written.
+  /// Sets the south pole's constants to the mean of the table's own values over the equator. fill()
+  /// does it; needed again after values() were written.
   void setSouthPoleFromEquator();
 
   /// The columns' values for a light from `d`. `out` has columns() entries.
@@ -66,14 +67,16 @@ class BasisTable {
   std::span<float> southPole() { return southPole_; }
   std::span<const float> southPole() const { return southPole_; }
 
-  /// What encode() may lose: the rms rounding error of column c is at most relative * (its rms over the
-  /// disc). Default kDefaultStoredError, -72 dB. Not part of the table's value.
+  /// What encode() may lose: the rms rounding error of column c is at most relative * (its rms over
+  /// the disc), but never finer than 2^-24 of its largest value. Default kDefaultStoredError.
   void setStoredError(double relative);
-  /// The same in the columns' own units, one positive number per column: for bases whose columns do not
-  /// matter equally (give error of the picture / rms of the column's plane).
+  /// The same in the columns' own units, one positive number per column: for bases whose columns do
+  /// not matter equally (give error of the picture / rms of the column's plane).
   void setStoredErrors(std::vector<double> absolutePerColumn);
 
-  /// basis.bin's bytes. Rounds the table to what the file stores, so that *this* equals decode(encode()).
+  /// basis.bin's bytes. Rounds the table to what the file stores: *this equals decode(encode()). A
+  /// table that was encoded or decoded and not changed since gives the same bytes again. Throws
+  /// Error (Fault::Input) for values that are not finite or beyond 2^60.
   std::vector<std::byte> encode();
   /// Untrusted input is safe. Throws Error naming `source`.
   static BasisTable decode(std::span<const std::byte> bytes, const std::string& source);
@@ -92,7 +95,8 @@ class BasisTable {
   std::vector<double> storedErrors_;  // empty: storedError_ holds for all
 };
 
-/// How table columns become the basis colour(x) = g(m(w) + sum_k b_k(w) P_k(x)) of DESIGN's common form.
+/// How table columns become the basis colour(x) = g(m(w) + sum_k b_k(w) P_k(x)) of DESIGN's common
+/// form.
 struct BasisColour {
   /// Separable: plane 3j+c has b = column j times colourMatrix column c; no mean.
   /// Full: columns 3k..3k+2 are b_k's RGB for plane k, and the last three columns are the mean m.

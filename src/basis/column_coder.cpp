@@ -13,7 +13,6 @@ constexpr double kLargestField = 1 << 24;
 // Codes round toward zero below this fraction of a step: a little more error, far more zeros (the
 // best of 0.33 to 0.5 by bytes at equal error, docs/math/bases.md).
 constexpr double kRoundingThreshold = 0.62;
-constexpr int kMaxReferenceDistance = 2;
 
 // The smallest unit that is at least `atLeast`.
 int unitCodeFrom(double atLeast) {

@@ -9,16 +9,6 @@
 #include "illum/error.h"
 
 namespace illum {
-namespace {
-
-// A basis of the hemisphere has no value below the horizon; a light there stands for what lies
-// between.
-Direction raisedToHorizon(Direction d) {
-  if (d.z() >= 0 || (d.x() == 0 && d.y() == 0)) return d;
-  return Direction::fromVector({d.x(), d.y(), 0});
-}
-
-}  // namespace
 
 std::vector<double> projectionOperator(std::span<const Direction> lights,
                                        const AnalyticBasis& basis, bool extension) {
@@ -41,7 +31,7 @@ std::vector<double> projectionOperator(std::span<const Direction> lights,
   const std::size_t coefficients = static_cast<std::size_t>(basis.coefficients());
   std::vector<double> rows(coefficients * lights.size(), 0.0), values(coefficients);
   for (std::size_t i = 0; i < nodes.size(); ++i) {
-    basis.evaluate(hemispherical ? raisedToHorizon(nodes[i]) : nodes[i], values);
+    basis.evaluate(nodes[i], values);
     for (std::size_t k = 0; k < coefficients; ++k) {
       double* row = rows.data() + k * lights.size();
       const double share = weights[i] * values[k];

@@ -30,14 +30,26 @@ std::vector<Frequency> zone(int count) {
 class ChartCosines final : public AnalyticBasis {
  public:
   ChartCosines(int coefficients, LightDomain domain)
-      : coefficients_(coefficients), domain_(domain), upper_(zone(upperCount())) {}
+      : coefficients_(coefficients),
+        domain_(domain),
+        upper_(zone(upperCount())),
+        equatorMean_(meanOverEquator()) {}
 
   std::string_view name() const override { return "dct"; }
   int coefficients() const override { return coefficients_; }
   LightDomain domain() const override { return domain_; }
 
+  // Below the horizon of the hemisphere the paper's extension, as in a table.
   void evaluate(Direction d, std::span<double> values) const override {
-    evaluateOnChart(chartFromDirection(d), values);
+    if (domain_ == LightDomain::Sphere || d.z() >= 0) {
+      evaluateOnChart(chartFromDirection(d), values);
+      return;
+    }
+    evaluateOnEquator(d.phiRadians(), values);
+    const double share = 2 * d.thetaRadians() / std::numbers::pi - 1;
+    for (std::size_t k = 0; k < values.size(); ++k) {
+      values[k] = (1 - share) * values[k] + share * equatorMean_[k];
+    }
   }
 
   void evaluateOnChart(ChartPoint p, std::span<double> values) const override {
@@ -54,6 +66,18 @@ class ChartCosines final : public AnalyticBasis {
   int upperCount() const {
     return domain_ == LightDomain::Sphere ? (coefficients_ + 1) / 2 : coefficients_;
   }
+  void evaluateOnEquator(double phi, std::span<double> values) const {
+    evaluateOnChart({0, 0.5 + 0.5 * std::cos(phi), 0.5 + 0.5 * std::sin(phi)}, values);
+  }
+  std::vector<double> meanOverEquator() const {
+    constexpr int kSteps = 1024;
+    std::vector<double> mean(coefficients_, 0.0), values(coefficients_);
+    for (int i = 0; i < kSteps; ++i) {
+      evaluateOnEquator(2 * std::numbers::pi * i / kSteps, values);
+      for (std::size_t k = 0; k < mean.size(); ++k) mean[k] += values[k] / kSteps;
+    }
+    return mean;
+  }
   static double cosine(int frequency, double x) {
     return frequency == 0 ? 1 : std::numbers::sqrt2 * std::cos(std::numbers::pi * frequency * x);
   }
@@ -61,6 +85,7 @@ class ChartCosines final : public AnalyticBasis {
   int coefficients_;
   LightDomain domain_;
   std::vector<Frequency> upper_;  ///< the lower square's are a prefix of these
+  std::vector<double> equatorMean_;
 };
 
 }  // namespace

@@ -2,7 +2,6 @@
 // Hemispherical Basis for Accurate and Efficient Rendering", Eurographics Symposium on Rendering
 // 2004, equation 4.
 #include <algorithm>
-#include <cassert>
 #include <cmath>
 #include <numbers>
 
@@ -23,21 +22,24 @@ class HemisphericalHarmonics final : public AnalyticBasis {
   int coefficients() const override { return (lMax_ + 1) * (lMax_ + 1); }
   LightDomain domain() const override { return LightDomain::Hemisphere; }
 
+  // Below the horizon: the equator's values, which the paper's extension keeps all the way down,
+  // because they are the same all round.
   void evaluate(Direction d, std::span<double> values) const override {
-    assert(d.z() >= 0);
-    evaluateAt(d, values);
+    evaluateAt(d, std::max(0.0, d.z()), values);
   }
 
   // Functions of odd m rise from the equator like the square root of the height above it: a table
   // cannot follow that to the end. Continued as even functions, with |cos(theta)| under the root,
   // they are met 1.5 dB better than continued as odd ones (docs/math/bases.md).
   void evaluateOnChart(ChartPoint p, std::span<double> values) const override {
-    evaluateAt(directionFromChart(p), values);
+    const Direction d = directionFromChart(p);
+    evaluateAt(d, d.z(), values);
   }
 
  private:
-  void evaluateAt(Direction d, std::span<double> values) const {
-    const double c = d.z(), horizontal = std::hypot(d.x(), d.y());
+  // At the azimuth of d and cos(theta) = c.
+  void evaluateAt(Direction d, double c, std::span<double> values) const {
+    const double horizontal = std::hypot(d.x(), d.y());
     // sin of the stretched angle: sqrt(1 - (2c-1)^2) = 2 sqrt(c (1-c)).
     const double sine = 2 * std::sqrt(std::abs(c) * std::max(0.0, 1 - c));
     const double scale = horizontal > 0 ? sine / horizontal : 0;

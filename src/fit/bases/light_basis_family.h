@@ -21,9 +21,9 @@ class AnalyticBasis {
   virtual int coefficients() const = 0;
   virtual LightDomain domain() const = 0;
 
-  /// values[k] = k-th function at `d`; `values` has coefficients() entries. A basis of the
-  /// hemisphere is defined for d.z() >= 0 only; what lies below is the table's (and the
-  /// extension's) affair.
+  /// values[k] = k-th function at `d`; `values` has coefficients() entries. SH are defined all
+  /// round; HSH and cosines on the hemisphere follow the paper's extension below it, as their
+  /// tables do.
   virtual void evaluate(Direction d, std::span<double> values) const = 0;
 
   /// The same on the chart, continued smoothly past the equator of the point's own square: what a
