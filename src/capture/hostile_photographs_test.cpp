@@ -66,7 +66,7 @@ constexpr std::uint64_t kPlenty = std::uint64_t{256} << 20;
 
 // Enough for bands and not for everything. Floats are larger.
 std::uint64_t littleFor(const Folder& folder) {
-  return std::filesystem::exists(folder / "a.exr") ? 4500000 : 2500000;
+  return std::filesystem::exists(folder / "a.exr") ? 5500000 : 2500000;
 }
 
 void expectOneSentence(const Folder& folder, const std::string& name, const std::string& part) {
@@ -246,11 +246,10 @@ TEST_P(HostileFormat, Truncated) {
   }
 }
 
-TEST_P(HostileFormat, LastByteMissing) {
-  const std::string name = GetParam().ending;
-  if (name != ".jpg" && name != ".png" && name != ".webp") {
-    GTEST_SKIP() << "formats without an end mark";
-  }
+class HostileEnd : public HostileFormat {};
+
+// Formats with an end mark.
+TEST_P(HostileEnd, LastByteMissing) {
   std::vector<std::byte> bytes = test::bytesOf(stack_.victim);
   bytes.pop_back();
   test::writeBytes(stack_.victim, bytes);
@@ -289,6 +288,14 @@ INSTANTIATE_TEST_SUITE_P(
                     FormatCase{"targa", ".tga"}, FormatCase{"pnm", ".ppm"},
                     FormatCase{"dpx", ".dpx"}, FormatCase{"sgi", ".sgi"},
                     FormatCase{"jpeg2000", ".jp2"}, FormatCase{"webp", ".webp"}),
+    [](const auto& test) { return test.param.name; });
+
+INSTANTIATE_TEST_SUITE_P(
+    All, HostileEnd,
+    testing::Values(FormatCase{"jpeg", ".jpg"},
+                    FormatCase{"progressive", ".jpg", Byte, {{"jpeg:progressive", 1}}},
+                    FormatCase{"png", ".png"}, FormatCase{"interlaced", ".png", Byte, {}, true},
+                    FormatCase{"webp", ".webp"}),
     [](const auto& test) { return test.param.name; });
 
 void patch(const std::filesystem::path& file, std::size_t at, std::initializer_list<int> values) {

@@ -106,7 +106,8 @@ class OpenPicture {
 
   void check(bool succeeded) {
     proxy_.rethrowFault();
-    if (succeeded) return;
+    // Its TIFF reader says that it succeeded where only the last strip did, but keeps the fault.
+    if (succeeded && !input_->has_error()) return;
     std::string found = input_->geterror();
     if (found.empty()) found = OIIO::geterror();
     throw inputError(path_, "an undamaged " + std::string(titleOf(format_)) + " picture",
