@@ -94,9 +94,13 @@ TEST(AtlasLayout, NoOtherNumberOfColumnsMakesTheLongerSideShorter) {
 
 TEST(AtlasLayout, RefusesWhatExceedsAnAtlas) {
   EXPECT_EQ(AtlasLayout::forTile(27, {1360, 1360}, false).atlas(), (Size{4080, 4080}));
-  EXPECT_THAT(errorOf([] { AtlasLayout::forTile(27, {1368, 1368}, false); }),
+  EXPECT_THAT(errorOf([] {
+                AtlasLayout::forTile(27, {1368, 1368}, false);
+              }),
               HasSubstr("do not fit an atlas of 4096x4096"));
-  EXPECT_THAT(errorOf([] { AtlasLayout::forTile(27, {1360, 1360}, true); }),
+  EXPECT_THAT(errorOf([] {
+                AtlasLayout::forTile(27, {1360, 1360}, true);
+              }),
               HasSubstr("high and low bytes"));
   for (const Size tile : {Size{0, 5}, Size{5, 0}, Size{-8, 8}, Size{2147483647, 1}, Size{4097, 1}})
     EXPECT_NE(errorOf([&] { AtlasLayout::forTile(1, tile, false); }), "") << tile.width;
@@ -151,8 +155,9 @@ TEST(DecodeTile, RefusesAPictureThatIsNotTheLayouts) {
           errorOf([&] { decodeTile(tile.coding, tile.bits, kFrozenPlanes, size, file, "SOURCE"); }),
           HasSubstr("SOURCE: expected"))
           << nameOf(tile);
-    EXPECT_THAT(errorOf([&] { decodeTile(tile.coding, tile.bits, 9, kFrozenSize, file, "SOURCE"); }),
-                HasSubstr("SOURCE: expected"))
+    EXPECT_THAT(
+        errorOf([&] { decodeTile(tile.coding, tile.bits, 9, kFrozenSize, file, "SOURCE"); }),
+        HasSubstr("SOURCE: expected"))
         << nameOf(tile);
   }
 }
@@ -179,13 +184,17 @@ TEST(DecodeTile, RefusesAnAvifOfAnotherDepth) {
 }
 
 TEST(DecodeTile, RefusesBitsThatTheCodingCannotHold) {
-  EXPECT_THAT(errorOf([] { decodeTile(Coding::Jpeg, 12, 3, {8, 8}, {}, "SOURCE"); }),
+  EXPECT_THAT(errorOf([] {
+                decodeTile(Coding::Jpeg, 12, 3, {8, 8}, {}, "SOURCE");
+              }),
               HasSubstr("jpeg cannot hold 12 bits"));
 }
 
 TEST(DecodeMaskTile, RefusesAColouredPng) {
   const auto tiles = frozenTiles();
-  EXPECT_THAT(errorOf([&] { decodeMaskTile({8, 16}, bytesOf(tiles.front()), "SOURCE"); }),
+  EXPECT_THAT(errorOf([&] {
+                decodeMaskTile({8, 16}, bytesOf(tiles.front()), "SOURCE");
+              }),
               HasSubstr("SOURCE: expected a PNG of 8x16 with 1 plain"));
 }
 

@@ -1,0 +1,119 @@
+// fuzz_seeds FOLDER: writes a small first corpus for every fuzzer, FOLDER/NAME_fuzz/ each.
+#include <cstdio>
+#include <exception>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include "core/files.h"
+#include "encode/encode_tile.h"
+#include "encode/raw_archive.h"
+#include "encode/sample_object.h"
+
+namespace illum {
+namespace {
+
+namespace fs = std::filesystem;
+
+class Corpus {
+ public:
+  explicit Corpus(const fs::path& folder) : folder_(folder) { fs::create_directories(folder); }
+  void add(std::span<const std::byte> bytes) {
+    std::ofstream(folder_ / ("seed" + std::to_string(count_++)), std::ios::binary)
+        .write(reinterpret_cast<const char*>(bytes.data()),
+               static_cast<std::streamsize>(bytes.size()));
+  }
+  void add(const std::string& text) { add(std::as_bytes(std::span(text))); }
+
+ private:
+  fs::path folder_;
+  int count_ = 0;
+};
+
+std::vector<SampleOptions> smallObjects() {
+  std::vector<SampleOptions> all;
+  for (const auto& [coding, bits] : {std::pair{Coding::Png, 8},
+                                     {Coding::Png, 12},
+                                     {Coding::Avif, 8},
+                                     {Coding::Avif, 10},
+                                     {Coding::Jpeg, 8}}) {
+    SampleOptions options;
+    options.coding = coding;
+    options.bits = bits;
+    options.size = {12, 9};
+    options.poster = false;
+    options.mask = bits == 8;
+    all.push_back(options);
+  }
+  return all;
+}
+
+/// As fuzz_object takes entries: the index of the name, the length, the contents.
+void appendEntry(std::vector<std::byte>& out, int name, std::span<const std::byte> contents) {
+  out.push_back(static_cast<std::byte>(name));
+  out.push_back(static_cast<std::byte>(contents.size() & 0xff));
+  out.push_back(static_cast<std::byte>(contents.size() >> 8));
+  for (const std::byte b : contents) out.push_back(b);
+}
+
+int fuzzedName(const std::string& name) {
+  if (name == "object.json") return 0;
+  if (name == "basis.bin") return 1;
+  if (name.starts_with("mask")) return 5;
+  return name.ends_with(".png") ? 2 : name.ends_with(".avif") ? 3 : 4;
+}
+
+void addObjects(const fs::path& folder) {
+  Corpus objects(folder / "object_fuzz"), manifests(folder / "manifest_fuzz"),
+      tables(folder / "basis_table_fuzz"), tiles(folder / "tile_fuzz");
+  for (const SampleOptions& options : smallObjects()) {
+    std::vector<RawEntry> raw;
+    std::vector<std::byte> list;
+    for (const auto& [name, bytes] : sampleEntries(options)) {
+      raw.push_back(name == "object.json" ? deflatedEntry(name, bytes) : storedEntry(name, bytes));
+      appendEntry(list, fuzzedName(name), bytes);
+      if (name == "object.json") manifests.add(bytes);
+      if (name == "basis.bin") tables.add(bytes);
+      if (name.starts_with("planes")) {
+        std::vector<std::byte> tile;
+        const int coding = options.coding == Coding::Png    ? 0
+                           : options.coding == Coding::Avif ? 1
+                                                            : 2;
+        const int bits = options.bits == 8 ? 0 : options.bits == 10 ? 1 : 2;
+        for (const int value : {coding, bits, 11, options.size.width - 1, options.size.height - 1})
+          tile.push_back(static_cast<std::byte>(value));
+        for (const std::byte b : bytes) tile.push_back(b);
+        tiles.add(tile);
+      }
+    }
+    objects.add(rawArchive(raw));
+    objects.add(list);
+  }
+}
+
+void addLightFiles(const fs::path& folder) {
+  Corpus corpus(folder / "light_file_fuzz");
+  corpus.add("2\na.jpg 0 0 1\nb.jpg 0.6 0 0.8\n");
+  corpus.add("# comment\r\nC:\\photos\\my photo.jpg\t0.1\t-0.2\t0.9\r\n\r\nb.png,1,2,3,0.5\r\n");
+  corpus.add("\xef\xbb\xbfname;x;y;z;r;g;b\n\"a b.jpg\";0;0;100;1;0.5;2\n// end\n");
+  corpus.add("1\na.jpg nan 0 inf\n");
+}
+
+}  // namespace
+}  // namespace illum
+
+int main(int argc, char** argv) {
+  if (argc != 2) {
+    std::fprintf(stderr, "usage: fuzz_seeds FOLDER\n");
+    return 2;
+  }
+  try {
+    illum::addObjects(argv[1]);
+    illum::addLightFiles(argv[1]);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "%s\n", error.what());
+    return 1;
+  }
+  return 0;
+}
