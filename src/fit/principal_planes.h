@@ -30,7 +30,7 @@ PrincipalPlanes principalPlanes(const Kriging& kriging, std::span<const Directio
 /// there are (up to the limit) for less than ten lights.
 int choosePlaneCount(std::span<const Direction> lights, const ChannelMoments& moments,
                      const KrigingModel& model);
-inline constexpr double kPlaneToleranceDecibels = 0.05;
+inline constexpr double kPlaneToleranceDecibels = 0.02;
 inline constexpr int kGreatestDefaultPlanes = 45;
 
 }  // namespace illum
