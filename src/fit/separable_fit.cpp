@@ -111,6 +111,7 @@ BasisTable rotatedTable(const AnalyticBasis& basis, const PlaneRotation& rotatio
   TableRequest request;
   request.domain = basis.domain();
   request.columns = basis.coefficients();
+  request.smoothAcrossEquator = basis.smoothAcrossEquator();
   request.planeRms = planeRms;
   request.budget = std::max(kTableShare * errorPerChannel, kLeastTableError);
   request.nodes.assign(lights.begin(), lights.end());

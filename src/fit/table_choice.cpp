@@ -5,6 +5,8 @@
 #include <cassert>
 #include <cmath>
 
+#include "fit/bases/guard_ring.h"
+
 namespace illum {
 namespace {
 
@@ -50,7 +52,11 @@ BasisTable chooseTable(const TableRequest& request) {
   BasisTable table;
   for (const int resolution : kResolutions) {
     table = BasisTable(request.domain, resolution, request.columns);
-    table.fillChart(request.values);
+    if (request.smoothAcrossEquator) {
+      table.fillChart(request.values);
+    } else {
+      fillWithFittedGuard(table, request.values);
+    }
     if (pictureError(table, request, exact) <= request.budget) break;
   }
   table.setStoredErrors(storedErrors(request));

@@ -16,6 +16,8 @@ struct TableRequest {
   int columns = 0;
   /// As BasisTable::fillChart asks for it.
   std::function<void(ChartPoint, std::span<double>)> values;
+  /// As AnalyticBasis says; if not, the guard ring is fitted.
+  bool smoothAcrossEquator = true;
   /// Per column, the rms over pixels of what the column is multiplied with (1 for a mean).
   Vector planeRms;
   /// Greatest mean square error of the picture (summed over columns, averaged over `nodes`).

@@ -28,13 +28,14 @@ class HemisphericalHarmonics final : public AnalyticBasis {
     evaluateAt(d, std::max(0.0, d.z()), values);
   }
 
-  // Functions of odd m rise from the equator like the square root of the height above it: a table
-  // cannot follow that to the end. Continued as even functions, with |cos(theta)| under the root,
-  // they are met 1.5 dB better than continued as odd ones (docs/math/bases.md).
+  // Functions of odd m rise from the equator like the square root of the height above it. Continued
+  // as even functions, with |cos(theta)| under the root, they have a cusp there.
   void evaluateOnChart(ChartPoint p, std::span<double> values) const override {
     const Direction d = directionFromChart(p);
     evaluateAt(d, d.z(), values);
   }
+
+  bool smoothAcrossEquator() const override { return false; }
 
  private:
   // At the azimuth of d and cos(theta) = c.

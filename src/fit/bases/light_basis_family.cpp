@@ -3,6 +3,7 @@
 #include <string>
 
 #include "fit/bases/families.h"
+#include "fit/bases/guard_ring.h"
 #include "fit/bases/real_harmonics.h"
 #include "illum/error.h"
 
@@ -54,8 +55,12 @@ std::unique_ptr<AnalyticBasis> analyticBasis(BasisFamily family, int coefficient
 
 BasisTable tableOf(const AnalyticBasis& basis, int resolution) {
   BasisTable table(basis.domain(), resolution, basis.coefficients());
-  table.fillChart(
-      [&](ChartPoint p, std::span<double> values) { basis.evaluateOnChart(p, values); });
+  const auto values = [&](ChartPoint p, std::span<double> out) { basis.evaluateOnChart(p, out); };
+  if (basis.smoothAcrossEquator()) {
+    table.fillChart(values);
+  } else {
+    fillWithFittedGuard(table, values);
+  }
   return table;
 }
 

@@ -29,6 +29,9 @@ class AnalyticBasis {
   /// The same on the chart, continued smoothly past the equator of the point's own square: what a
   /// table needs for its guard ring.
   virtual void evaluateOnChart(ChartPoint p, std::span<double> values) const;
+
+  /// Whether that continuation is smooth; if not, tables fit their guard ring (guard_ring.h).
+  virtual bool smoothAcrossEquator() const { return true; }
 };
 
 /// Functions in the order that `coefficients` counts them. SH and HSH: (l, m) for l = 0, 1, … and
