@@ -1,4 +1,5 @@
-// Linear light and display-referred values are different types, so that neither is taken for the other.
+// Linear light and display-referred values are different types, so that neither is taken for the
+// other.
 #pragma once
 
 #include <array>
@@ -16,8 +17,8 @@ struct LinearRgb {
   friend bool operator==(const LinearRgb&, const LinearRgb&) = default;
 };
 
-/// The sRGB transfer function (IEC 61966-2-1), one channel. Linear light in [0, 1] to encoded values
-/// in [0, 1]; extended as an odd function outside, so that it stays invertible.
+/// The sRGB transfer function (IEC 61966-2-1), one channel. Linear light in [0, 1] to encoded
+/// values in [0, 1]; extended as an odd function outside, so that it stays invertible.
 float displayFromLinear(float linear);
 
 /// The inverse of displayFromLinear.

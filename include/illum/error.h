@@ -29,7 +29,8 @@ class Error : public std::runtime_error {
 Error inputError(const std::filesystem::path& file, std::string_view expected,
                  std::string_view found);
 
-/// "FILE: cannot ACTION: REASON" from errno, as a Fault::Machine; ENOENT and EISDIR are Fault::Input.
+/// "FILE: cannot ACTION: REASON" from errno, as a Fault::Machine. What is wrong with the
+/// name itself (nothing there, a folder, a file taken for a folder, too long) is Fault::Input.
 Error fileError(const std::filesystem::path& file, std::string_view action, int errnoValue);
 
 }  // namespace illum

@@ -33,7 +33,9 @@ class PictureOf {
  public:
   PictureOf() = default;
   PictureOf(Size size, int channels)
-      : size_(size), channels_(channels), samples_(size.pixels() * static_cast<std::size_t>(channels)) {}
+      : size_(size),
+        channels_(channels),
+        samples_(size.pixels() * static_cast<std::size_t>(channels)) {}
 
   Size size() const { return size_; }
   int width() const { return size_.width; }
@@ -43,7 +45,9 @@ class PictureOf {
 
   std::span<T> row(int y) { return {samples_.data() + offset(0, y), rowLength()}; }
   std::span<const T> row(int y) const { return {samples_.data() + offset(0, y), rowLength()}; }
-  T& at(int x, int y, int channel) { return samples_[offset(x, y) + static_cast<std::size_t>(channel)]; }
+  T& at(int x, int y, int channel) {
+    return samples_[offset(x, y) + static_cast<std::size_t>(channel)];
+  }
   const T& at(int x, int y, int channel) const {
     return samples_[offset(x, y) + static_cast<std::size_t>(channel)];
   }

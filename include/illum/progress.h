@@ -10,7 +10,8 @@ namespace illum {
 class Progress {
  public:
   virtual ~Progress() = default;
-  /// A new stage of `total` equal steps begins; `what` is a short phrase ("reading 60 photographs").
+  /// A new stage of `total` equal steps begins; `what` is a short phrase ("reading 60
+  /// photographs").
   virtual void begin(std::string_view what, std::uint64_t total);
   /// `steps` more are done. May throw to leave the work.
   virtual void advance(std::uint64_t steps = 1);
