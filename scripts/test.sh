@@ -72,10 +72,10 @@ run_pytest() { # NAME ARGUMENTS…
   return "$status"
 }
 
-run_fuzzer() { # PROGRAM: a corpus of seeds may lie in tests/fuzz/corpus/NAME
+run_fuzzer() { # PROGRAM; the build made its first corpus beside it
   local name corpus log
   name=$(basename "$1")
-  corpus=tests/fuzz/corpus/$name
+  corpus=$(dirname "$1")/corpus/$name
   log=$results/$name.log
   mkdir -p "$results/$name"
   local folders=("$results/$name")

@@ -142,7 +142,7 @@ def lossless(stack, tmp_path_factory):
     folder = tmp_path_factory.mktemp("lossless")
     Illum(tmp_path_factory.mktemp("output"))(
         "build", stack, "-o", folder / "ball.illum", "--basis", "sh", "--coefficients", 4,
-        "--coding", "png", "--tile", 32)
+        "--coding", "png", "--tile", 64)
     return folder / "ball.illum"
 
 

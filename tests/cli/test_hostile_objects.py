@@ -8,7 +8,11 @@ import zlib
 import numpy as np
 import pytest
 
+from conftest import BINARY
+
 MEBI = 1 << 20
+# Of one refusal. Sanitizers keep what is freed for a while.
+PEAK_LIMIT = (2000 if "sanitize" in str(BINARY) else 400) * MEBI
 
 
 def entries_of(file):
@@ -35,7 +39,7 @@ def refuses_everywhere(illum, file, tmp_path, words=()):
     verified = illum("verify", file, expect=1)
     assert "illum: " in verified.stderr, verified
     for result in (outcome, verified):
-        assert result.peak_bytes < 400 * MEBI or "asan" in result.stderr, result.peak_bytes
+        assert result.peak_bytes < PEAK_LIMIT, result.peak_bytes
     return outcome
 
 
@@ -136,13 +140,16 @@ def test_archives_of_wrong_content(illum, lossless, tmp_path, case):
     refuses_everywhere(illum, write_archive(tmp_path / "x.illum", entries), tmp_path, word)
 
 
-def png(width, height, rows=b""):
+def png(width, height, rows=b"", times=1):
+    """`rows` is repeated `times` before it is compressed."""
     def chunk(kind, body):
         checksum = struct.pack(">I", zlib.crc32(kind + body))
         return struct.pack(">I", len(body)) + kind + body + checksum
 
+    coder = zlib.compressobj()
+    data = b"".join([coder.compress(rows) for _ in range(times)] + [coder.flush()])
     header = struct.pack(">IIBBBBB", width, height, 8, 2, 0, 0, 0)
-    return (b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", header) + chunk(b"IDAT", zlib.compress(rows)) +
+    return (b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", header) + chunk(b"IDAT", data) +
             chunk(b"IEND", b""))
 
 
@@ -155,30 +162,40 @@ def test_tiles_of_another_size(illum, lossless, tmp_path, picture):
     refuses_everywhere(illum, write_archive(tmp_path / "x.illum", entries), tmp_path, "planes/")
 
 
-def test_zip_bomb_in_the_manifest(illum, lossless, tmp_path):
+@pytest.mark.parametrize("bomb", ["object.json", "basis.bin"])
+def test_zip_bomb(illum, lossless, tmp_path, bomb):
+    """1.5 GB of blanks in 1.5 MB. Made in pieces, because a child's peak counts its parent's."""
+    file = tmp_path / "bomb.illum"
     entries = entries_of(lossless)
-    entries["object.json"] = b" " * (1500 * MEBI)
-    file = write_archive(tmp_path / "bomb.illum", entries, ["object.json"])
+    with zipfile.ZipFile(file, "w") as archive:
+        for name, data in entries.items():
+            entry = zipfile.ZipInfo(name)
+            if name == bomb:
+                entry.compress_type = zipfile.ZIP_DEFLATED
+                with archive.open(entry, "w", force_zip64=False) as pipe:
+                    for _ in range(1500):
+                        pipe.write(b" " * MEBI)
+            else:
+                archive.writestr(entry, data)
     assert file.stat().st_size < 8 * MEBI
-    refuses_everywhere(illum, file, tmp_path, "object.json")
-
-
-def test_zip_bomb_in_the_table(illum, lossless, tmp_path):
-    entries = entries_of(lossless)
-    entries["basis.bin"] = entries["basis.bin"][:64] + bytes(1500 * MEBI)
-    file = write_archive(tmp_path / "bomb.illum", entries, ["basis.bin"])
-    refuses_everywhere(illum, file, tmp_path, "basis.bin")
+    refuses_everywhere(illum, file, tmp_path, bomb)
 
 
 def test_zip_bomb_in_a_tile(illum, lossless, tmp_path):
-    """A PNG of the right size whose compressed rows never end."""
+    """A PNG of the right size whose compressed rows go on for 300 MB."""
     entries = entries_of(lossless)
-    replaced("planes/", png(64, 64, bytes(300 * MEBI)))(entries)
-    refuses_everywhere(illum, write_archive(tmp_path / "bomb.illum", entries), tmp_path, "planes/")
+    tile = next(name for name in entries if name.startswith("planes/"))
+    size = struct.unpack(">II", entries[tile][16:24])
+    entries[tile] = png(*size, bytes(MEBI), times=300)
+    file = write_archive(tmp_path / "bomb.illum", entries)
+    outcome = illum("relight", file, "--light", "0,0,1", "-o", tmp_path / "o.png", expect=None,
+                    timeout=30)
+    assert outcome.code in (0, 1), "the rows that belong to the picture may be taken"
+    assert outcome.peak_bytes < PEAK_LIMIT, outcome.peak_bytes
 
 
 @pytest.mark.parametrize("name", ["../evil.txt", "/tmp/evil.txt", "planes/../../evil.txt",
-                                  "a\\..\\evil.txt", "planes/0/0/0_0.png/", "./object.json"])
+                                  "a\\..\\evil.txt", "./object.json"])
 def test_paths_that_leave_the_archive(illum, lossless, tmp_path, name):
     entries = entries_of(lossless)
     entries[name] = b"evil"
@@ -214,8 +231,7 @@ def set_at(manifest, path, value):
     manifest[path[-1]] = value
 
 
-@pytest.mark.parametrize("value", [-1, 0, 2**31 - 1, 2**31, 2**63, 2**64, 1e308, 0.5, None, "x", [],
-                                   {}], ids=repr)
+@pytest.mark.parametrize("value", [-1, 0, 2**31 - 1, 2**64, 1e308, 0.5, "x"], ids=repr)
 def test_no_number_of_the_manifest_is_trusted(illum, lossless, tmp_path, value):
     """Every number, one after the other, becomes a wild one: refused or harmless, never a crash."""
     manifest = json.loads(entries_of(lossless)["object.json"])
@@ -226,7 +242,7 @@ def test_no_number_of_the_manifest_is_trusted(illum, lossless, tmp_path, value):
         outcome = illum("relight", file, "--light", "0,0,1", "-o", tmp_path / "o.png", expect=None)
         (tmp_path / "o.png").unlink(missing_ok=True)
         assert outcome.code in (0, 1), f"{path}: {outcome}"
-        assert outcome.peak_bytes < 400 * MEBI, f"{path}: {outcome.peak_bytes}"
+        assert outcome.peak_bytes < PEAK_LIMIT, f"{path}: {outcome.peak_bytes}"
         assert outcome.stderr.count("\n") == outcome.code, f"{path}: {outcome}"
 
 
@@ -311,4 +327,4 @@ def test_folder_form_with_a_link_to_elsewhere(illum, stack, tmp_path):
     (folder / "basis.bin").symlink_to("/dev/zero")
     outcome = illum("relight", folder, "--light", "0,0,1", "-o", tmp_path / "o.png", expect=1,
                     timeout=60)
-    assert outcome.peak_bytes < 400 * MEBI, outcome
+    assert outcome.peak_bytes < PEAK_LIMIT, outcome

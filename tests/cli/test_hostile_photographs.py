@@ -102,8 +102,8 @@ def no_light_file(folder):
 
 
 def two_light_files(folder):
-    shutil.copy(folder / "lights.lp", folder / "other.lp")
-    (folder / "other.lp").write_text("1\nphoto 00.png 0 0 1\n")
+    (folder / "lights.lp").rename(folder / "one.lp")
+    shutil.copy(folder / "one.lp", folder / "other.lp")
 
 
 def name_that_leaves_the_folder(folder):
@@ -117,7 +117,7 @@ PHOTOGRAPH_CASES = [
     (another_size, ["64", "72"]), (turned, ["56"]), (folder_instead, VICTIM),
     (dangling_link, VICTIM), (looping_link, VICTIM), (flipped_bits, VICTIM),
     (huge_declared_size, VICTIM), (page_description, VICTIM), (command_pipe_name, "touch owned"),
-    (all_photographs_gone, []), (no_light_file, []), (two_light_files, ["lights.lp", "other.lp"]),
+    (all_photographs_gone, []), (no_light_file, []), (two_light_files, ["one.lp", "other.lp"]),
     (name_that_leaves_the_folder, "passwd"),
 ]
 
@@ -149,7 +149,7 @@ def test_an_unreadable_photograph_of_a_late_moment(illum, tmp_path):
     stacks.write_stack(tmp_path / "p", count=12, suffix=".tif")
     file = tmp_path / "p" / "photo 07.tif"
     file.write_bytes(file.read_bytes()[:9000])
-    illum.refuses("build", tmp_path / "p", "-o", tmp_path / "o.illum", "--tile", 16,
+    illum.refuses("build", tmp_path / "p", "-o", tmp_path / "o.illum", "--tile", 64,
                   mentions="photo 07.tif", leaves=tmp_path)
 
 
@@ -178,17 +178,17 @@ def with_line(folder, number, text):
 
 
 LIGHT_FILES = {
-    "nan": ("photo 04.png nan 0 1", "5"),
-    "infinite": ("photo 04.png 0 inf 1", "5"),
-    "zero": ("photo 04.png 0 0 0", "5"),
-    "words": ("photo 04.png left up front", "5"),
-    "two_numbers": ("photo 04.png 0.5 0.5", "5"),
-    "overflow": ("photo 04.png 1e999 0 1", "5"),
-    "negative_intensity": ("photo 04.png 0 0 1 -2", "5"),
-    "zero_intensity": ("photo 04.png 0 0 1 0", "5"),
-    "no_name": ("0.1 0.2 0.9", "5"),
+    "nan": ("photo 04.png nan 0 1", ":6:"),
+    "infinite": ("photo 04.png 0 inf 1", ":6:"),
+    "zero": ("photo 04.png 0 0 0", ":6:"),
+    "words": ("photo 04.png left up front", ":6:"),
+    "two_numbers": ("photo 04.png 0.5 0.5", ":6:"),
+    "overflow": ("photo 04.png 1e999 0 1", ":6:"),
+    "negative_intensity": ("photo 04.png 0 0 1 -2", ":6:"),
+    "zero_intensity": ("photo 04.png 0 0 1 0", ":6:"),
+    "no_name": ("0.1 0.2 0.9", ":6:"),
     "same_name_other_direction": ("photo 03.png 0 0 1", "photo 03.png"),
-    "binary": ("photo 04.png \0\1\2\3", "5"),
+    "binary": ("photo 04.png \0\1\2\3", "binary"),
 }
 
 
@@ -231,7 +231,7 @@ def test_duplicates_are_merged_with_a_word(illum, own_stack, tmp_path):
     lines = light_lines(own_stack)
     (own_stack / "lights.lp").write_text("\n".join(["29", *lines[1:], lines[3]]) + "\n")
     outcome = illum("build", own_stack, "-o", tmp_path / "o.illum")
-    assert "photo 02.png" in outcome.stderr, outcome
+    assert "repeated" in outcome.stderr, outcome
 
 
 @pytest.mark.parametrize("options, word", [
@@ -257,14 +257,8 @@ def test_no_folder_of_photographs(illum, tmp_path, source):
 
 def test_too_little_memory_says_how_much(illum, stack, tmp_path):
     sentence = illum.refuses("build", stack, "-o", tmp_path / "o.illum", "--max-memory", "4k",
-                             leaves=tmp_path)
+                             code=3, leaves=tmp_path)
     assert any(unit in sentence for unit in ("KiB", "MiB", "GiB")), sentence
-
-
-def test_output_in_a_folder_that_is_not_there(illum, stack, tmp_path):
-    outcome = illum("build", stack, "-o", tmp_path / "no" / "o.illum", expect=None)
-    assert outcome.code in (1, 3) and "o.illum" in outcome.stderr, outcome
-    assert list(tmp_path.iterdir()) == []
 
 
 def test_a_fifo_is_not_waited_for(illum, own_stack, tmp_path):

@@ -142,7 +142,7 @@ def test_a_picture_is_replaced(illum, built, tmp_path):
 
 
 def test_coarser_level(illum, stack, tmp_path):
-    illum("build", stack, "-o", tmp_path / "o.illum", "--tile", 24, "--coding", "png")
+    illum("build", stack, "-o", tmp_path / "o.illum", "--tile", 64, "--coding", "png")
     light = next(stacks.directions(28))
     out = relight(illum, tmp_path / "o.illum", tmp_path / "l1.png", tuple(light),
                   more=["--level", "1"])

@@ -19,7 +19,6 @@ from conftest import BINARY, ROOT
     ["build", "STACK", "-o", "OUT.illum", "--quality", "101"],
     ["build", "STACK", "-o", "OUT.illum", "--quality", "-3"],
     ["build", "STACK", "-o", "OUT.illum", "--bits", "9"],
-    ["build", "STACK", "-o", "OUT.illum", "--coefficients", "0"],
     ["build", "STACK", "-o", "OUT.illum", "--coefficients", "many"],
     ["build", "STACK", "-o", "OUT.illum", "--crop", "1,2,3"],
     ["build", "STACK", "-o", "OUT.illum", "--shrink", "0"],
