@@ -8,6 +8,7 @@
 
 #include "build/plan.h"
 #include "build/plane_row.h"
+#include "build/poster.h"
 #include "build/response_capture.h"
 #include "build/tile_writer.h"
 #include "core/memory.h"
@@ -20,9 +21,9 @@ namespace illum {
 namespace {
 
 // Chosen from the curves in docs/quality.md and docs/performance.md.
-constexpr int kDefaultQuality = 75;
+constexpr int kDefaultQuality = 80;
 constexpr int kDefaultSpeed = 6;
-constexpr int kPosterQuality = 85;
+constexpr int kPosterQuality = 80;
 
 Response responseFor(const BuildOptions& options, Transfer transfer) {
   if (!options.response) {
@@ -117,7 +118,7 @@ Manifest manifestFor(const Capture& capture, const LightChoice& lights, const Bu
   manifest.response = response;
   BasisEntry basis;
   basis.name = fit.basisName;
-  basis.coefficients = fit.coefficients;
+  basis.coefficients = fit.coefficients > 0 ? fit.coefficients : fit.basis.planes();
   basis.colour = fit.basis.colour();
   basis.mixing = fit.mixing;
   manifest.bases = {basis};

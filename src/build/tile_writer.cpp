@@ -9,7 +9,6 @@
 #include "build/fill.h"
 #include "build/quantiser.h"
 #include "illum/picture_io.h"
-#include "relight/weighted_sum.h"
 
 namespace illum {
 namespace {
@@ -76,35 +75,6 @@ std::uint64_t tileCodingBytes(const Manifest& manifest, int basisPlanes) {
   // Planes cut out as floats, codes, and libaom's frames, reference copies and side data, which
   // were measured at about 24 bytes a sample of the atlas.
   return pixels * (4 * static_cast<std::uint64_t>(basisPlanes) + (2 + 24) * stored);
-}
-
-BytePicture posterOf(const PlaneRow& coarsest, const Fit& fit, const Manifest& manifest,
-                     std::span<const DirectionalLight> lights) {
-  const Direction wanted = Direction::fromVector({-0.4, 0.5, 0.8});
-  const auto nearest =
-      std::min_element(lights.begin(), lights.end(), [&](const auto& a, const auto& b) {
-        return angleRadians(a.toLight, wanted) < angleRadians(b.toLight, wanted);
-      });
-  std::vector<float> basis(fit.basis.evaluateSize());
-  fit.basis.evaluate(nearest->toLight, basis);
-
-  const std::size_t pixels = coarsest.size.pixels();
-  const auto planes = static_cast<std::size_t>(fit.basis.planes());
-  Picture picture(coarsest.size, 3);
-  const auto out = picture.samples();
-  for (std::size_t p = 0; p < pixels; ++p) {
-    const float coverage = coarsest.coverage.empty() ? 1.0f : coarsest.coverage[p];
-    for (std::size_t c = 0; c < 3; ++c) {
-      float sum = basis[3 * planes + c];
-      for (std::size_t k = 0; k < planes; ++k) {
-        sum += basis[3 * k + c] * coarsest.values[k * pixels + p];
-      }
-      out[3 * p + c] = sum;
-    }
-    applyResponse(manifest.response, out.subspan(3 * p, 3));
-    for (std::size_t c = 0; c < 3; ++c) out[3 * p + c] *= coverage;
-  }
-  return displayBytes(picture);
 }
 
 }  // namespace illum

@@ -8,7 +8,6 @@
 #include "build/plane_row.h"
 #include "encode/encode_tile.h"
 #include "encode/object_writer.h"
-#include "fit/fit.h"
 #include "illum/progress.h"
 #include "object/manifest.h"
 
@@ -45,10 +44,5 @@ class TileWriter {
 
 /// Bytes that coding one full tile takes beside the row itself, measured generously.
 std::uint64_t tileCodingBytes(const Manifest& manifest, int basisPlanes);
-
-/// What the object looks like: the coarsest level under the captured light nearest to the upper
-/// left.
-BytePicture posterOf(const PlaneRow& coarsest, const Fit& fit, const Manifest& manifest,
-                     std::span<const DirectionalLight> lights);
 
 }  // namespace illum

@@ -33,7 +33,7 @@ struct BuildCommand {
   std::string output, curve, response;
   int bits = 0;
   double regularizer = 0;
-  bool json = false;
+  bool json = false, weights = false, extension = false;
 
   void addTo(CLI::App& command) {
     command.add_option("INPUT", input.input, "folder of photographs with a light file")->required();
@@ -61,11 +61,11 @@ struct BuildCommand {
     command.add_option("--regularizer", regularizer, "strength (default: by leave-one-out)")
         ->group(group);
     command
-        .add_flag("--weights,!--no-weights", build.solidAngleWeights,
+        .add_flag("--weights,!--no-weights", weights,
                   "weight lights by solid angle (default: by leave-one-out)")
         ->group(group);
     command
-        .add_flag("--extension,!--no-extension", build.extension,
+        .add_flag("--extension,!--no-extension", extension,
                   "extend samples below the horizon (default: by leave-one-out)")
         ->group(group);
     command.add_flag("--projection", build.projection, "integrate instead of least squares")
@@ -88,6 +88,8 @@ struct BuildCommand {
   void finishOptions(const CLI::App& command) {
     if (command.count("--bits") > 0) build.bits = bits;
     if (command.count("--regularizer") > 0) build.regularizer = regularizer;
+    if (command.count("--weights") > 0) build.solidAngleWeights = weights;
+    if (command.count("--extension") > 0) build.extension = extension;
     if (!curve.empty()) build.curve = curve;
     if (!response.empty()) build.response = response;
     build.memoryBytes = machine.memoryBytes();
