@@ -11,6 +11,8 @@ cd "$(dirname "$0")/.."
 fuzz_seconds=${FUZZ_SECONDS:-30}
 jobs=$(nproc)
 results=$PWD/out/test
+# The same objects serve every checkout on the machine.
+export CCACHE_BASEDIR=$PWD CCACHE_NOHASHDIR=true
 export CMAKE_BUILD_PARALLEL_LEVEL=$jobs CTEST_OUTPUT_ON_FAILURE=1 PYTHONDONTWRITEBYTECODE=1
 [ "${CI:-}" = true ] && export ILLUM_REQUIRE_SHARED=1
 
