@@ -11,11 +11,12 @@
 
 namespace illum {
 
-/// Error measures of one picture against the truth, over 8-bit sRGB at exposure 0 unless said otherwise.
+/// Error measures of one picture against the truth, over 8-bit sRGB at exposure 0 unless said
+/// otherwise.
 struct PictureError {
   double psnrDecibels = 0;  ///< over all pixels and channels, peak 255; 99 for identical pictures
-  double ssim = 0;          ///< Wang et al. 2004 on luma, Gaussian window 11x11, sigma 1.5; in [-1, 1]
-  double rms = 0;           ///< in units of the peak (0 … 1)
+  double ssim = 0;  ///< Wang et al. 2004 on luma, Gaussian window 11x11, sigma 1.5; in [-1, 1]
+  double rms = 0;   ///< in units of the peak (0 … 1)
 };
 
 struct LightResult {
@@ -23,8 +24,8 @@ struct LightResult {
   Direction direction;
   bool heldOut = false;
   PictureError all;
-  PictureError masked;         ///< pixels with coverage > 1/2 only; meaningful if Evaluation::hasMask
-  double linearRms = 0;        ///< unclamped linear light
+  PictureError masked;   ///< pixels with coverage > 1/2 only; meaningful if Evaluation::hasMask
+  double linearRms = 0;  ///< unclamped linear light
   double linearPsnrDecibels = 0;  ///< peak 1
 };
 
@@ -45,9 +46,10 @@ struct Evaluation {
 
 PictureError comparePictures(const BytePicture& picture, const BytePicture& truth);
 
-/// Relights `object` under every light of `truth` and compares. Lights that the object's fit saw are used,
-/// all others held out (docs/quality.md). Works on as many lights at once as `memoryBytes` allows, with what the
-/// capture holds, but on one at least; 0 = a quarter of the machine. Throws Error if the sizes differ.
+/// Relights `object` under every light of `truth` and compares. Lights that the object's fit saw
+/// are used, all others held out (docs/quality.md). Reads the capture once, from top to bottom.
+/// `memoryBytes`: what it may hold together with the capture (and exceeds only where a single light
+/// needs more); 0 = a quarter of the machine. Throws Error if the sizes differ.
 Evaluation evaluate(const Object& object, const Capture& truth, Progress& progress,
                     std::uint64_t memoryBytes = 0);
 
@@ -55,8 +57,9 @@ Evaluation evaluate(const Object& object, const Capture& truth, Progress& progre
 std::string jsonOf(const Evaluation& evaluation);
 std::string tableOf(const Evaluation& evaluation);
 
-/// A self-contained HTML page: summary, table, the dome of light directions coloured by error, worst and
-/// best lights side by side with the photograph and the error (times 8).
-std::string htmlReport(const Object& object, const Capture& truth, const Evaluation& evaluation);
+/// A self-contained HTML page: summary, table, the dome of light directions coloured by error,
+/// worst and best lights side by side with the photograph and the error (times 8).
+std::string htmlReport(const Object& object, const Capture& truth, const Evaluation& evaluation,
+                       std::uint64_t memoryBytes = 0);
 
 }  // namespace illum

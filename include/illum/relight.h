@@ -18,9 +18,14 @@ class Relighter {
   explicit Relighter(Object object, std::uint64_t memoryBytes = std::uint64_t{1} << 30);
   ~Relighter();
 
-  /// Linear light, RGB, or RGBA premultiplied if the object has a mask. Exact superposition: each light
-  /// passes the object's response by itself unless the response is linear. No clamp, no exposure.
+  /// Linear light, RGB, or RGBA premultiplied if the object has a mask. Exact superposition: each
+  /// light passes the object's response by itself unless the response is linear. No clamp, no
+  /// exposure.
   Picture relight(std::span<const DirectionalLight> lights, int group = 0, int level = 0) const;
+  /// The same of `region`, a rectangle within that level, alone; only tiles that it touches are
+  /// decoded.
+  Picture relightRegion(std::span<const DirectionalLight> lights, const Rectangle& region,
+                        int group = 0, int level = 0) const;
 
  private:
   struct State;

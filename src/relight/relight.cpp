@@ -28,6 +28,17 @@ void checkRequest(const Object& object, int group, int level) {
   }
 }
 
+void checkRegion(const Object& object, const Rectangle& region, Size size) {
+  if (region.x >= 0 && region.y >= 0 && region.width > 0 && region.height > 0 &&
+      region.width <= size.width - region.x && region.height <= size.height - region.y) {
+    return;
+  }
+  throw Error(Fault::Usage,
+              fmt::format("{}: there is no region {}x{} at ({}, {}), only {}x{} pixels",
+                          object.path().string(), region.width, region.height, region.x, region.y,
+                          size.width, size.height));
+}
+
 // One set of weights per pass over the planes: a linear response lets all lights share one.
 struct Pass {
   FoldedWeights weights;
@@ -72,19 +83,22 @@ void relightTexels(const PlaneCodes& codes, const Manifest& manifest, std::span<
   }
 }
 
-void storeRow(std::span<const float> rgb, const BytePicture& mask, int row, const Rectangle& tile,
-              Picture& picture) {
-  const int channels = picture.channels();
-  float* out = picture.row(tile.y + row).data() + static_cast<std::ptrdiff_t>(tile.x) * channels;
-  if (channels == 3) {
+// `mask`: the texels' coverage; empty for a picture without alpha.
+void storeRow(std::span<const float> rgb, std::span<const std::uint8_t> mask, float* out) {
+  if (mask.empty()) {
     std::copy(rgb.begin(), rgb.end(), out);
     return;
   }
-  for (int x = 0; x < tile.width; ++x, out += 4) {
-    const float coverage = static_cast<float>(mask.at(x, row, 0)) / 255.0f;
-    for (int c = 0; c < 3; ++c) out[c] = coverage * rgb[static_cast<std::size_t>(3 * x + c)];
+  for (std::size_t x = 0; x < mask.size(); ++x, out += 4) {
+    const float coverage = static_cast<float>(mask[x]) / 255.0f;
+    for (std::size_t c = 0; c < 3; ++c) out[c] = coverage * rgb[3 * x + c];
     out[3] = coverage;
   }
+}
+
+Rectangle intersection(const Rectangle& a, const Rectangle& b) {
+  const int x = std::max(a.x, b.x), y = std::max(a.y, b.y);
+  return {x, y, std::min(a.right(), b.right()) - x, std::min(a.bottom(), b.bottom()) - y};
 }
 
 }  // namespace
@@ -101,25 +115,40 @@ Relighter::~Relighter() = default;
 Picture Relighter::relight(std::span<const DirectionalLight> lights, int group, int level) const {
   const Object& object = state_->cache.object();
   checkRequest(object, group, level);
+  const Size size = object.manifest().sizeAt(level);
+  return relightRegion(lights, {0, 0, size.width, size.height}, group, level);
+}
+
+Picture Relighter::relightRegion(std::span<const DirectionalLight> lights, const Rectangle& region,
+                                 int group, int level) const {
+  const Object& object = state_->cache.object();
+  checkRequest(object, group, level);
   const Manifest& manifest = object.manifest();
+  checkRegion(object, region, manifest.sizeAt(level));
   const auto passes = passesFor(object.basis(group), manifest, lights);
-  Picture picture(manifest.sizeAt(level), manifest.mask ? 4 : 3);
+  Picture picture(region.size(), manifest.mask ? 4 : 3);
 
   const auto relightTile = [&](int x, int y) {
     const Rectangle tile = manifest.tileRectangle(level, x, y);
+    const Rectangle part = intersection(tile, region);
     const auto codes = state_->cache.planes({group, level, x, y});
     const BytePicture mask = manifest.mask ? object.maskTile(group, level, x, y) : BytePicture();
-    tbb::parallel_for(tbb::blocked_range<int>(0, tile.height, 16), [&](const auto& rows) {
-      std::vector<float> rgb(3 * static_cast<std::size_t>(tile.width)), scratch;
+    const auto width = static_cast<std::size_t>(part.width);
+    const auto left = static_cast<std::size_t>(part.x - tile.x);
+    tbb::parallel_for(tbb::blocked_range<int>(part.y, part.bottom(), 16), [&](const auto& rows) {
+      std::vector<float> rgb(3 * width), scratch;
       for (int row = rows.begin(); row < rows.end(); ++row) {
-        const auto first = static_cast<std::size_t>(row) * static_cast<std::size_t>(tile.width);
+        const auto first = Size{tile.width, row - tile.y}.pixels() + left;
         relightTexels(*codes, manifest, passes, first, rgb, scratch);
-        storeRow(rgb, mask, row, tile, picture);
+        storeRow(rgb, mask.empty() ? mask.samples() : mask.row(row - tile.y).subspan(left, width),
+                 &picture.at(part.x - region.x, row - region.y, 0));
       }
     });
   };
+  const auto endTile = [&](int end) { return (end - 1) / manifest.tile + 1; };
   tbb::parallel_for(
-      tbb::blocked_range2d<int>(0, manifest.tilesDown(level), 1, 0, manifest.tilesAcross(level), 1),
+      tbb::blocked_range2d<int>(region.y / manifest.tile, endTile(region.bottom()), 1,
+                                region.x / manifest.tile, endTile(region.right()), 1),
       [&](const auto& range) {
         for (int y = range.rows().begin(); y < range.rows().end(); ++y) {
           for (int x = range.cols().begin(); x < range.cols().end(); ++x) relightTile(x, y);

@@ -1,8 +1,12 @@
 #include "study/comparison.h"
 
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
 #include <algorithm>
 #include <string>
 
+#include "core/memory.h"
 #include "illum/colour.h"
 #include "illum/error.h"
 #include "object/manifest.h"
@@ -22,12 +26,27 @@ void checkComparable(const Object& object, const Capture& truth) {
   if (truth.lights().empty()) throw inputError(object.path(), "photographs to judge it by", "none");
 }
 
+/// The object's decoded tiles get half of what there is, and no more than they need.
+std::uint64_t tileBytesOf(const Object& object, std::uint64_t memoryBytes) {
+  const auto planes = static_cast<std::uint64_t>(object.planes());
+  return std::min(memoryBytes / 2, object.size().pixels() * planes * sizeof(std::uint16_t));
+}
+
+Rectangle band(const Capture& truth, int y, int rows) {
+  return {0, y, truth.size().width, std::min(rows, truth.size().height - y)};
+}
+
 /// The alpha of any relit picture is the object's mask.
-BytePicture coverageOf(const Relighter& relighter) {
-  const Picture relit = relighter.relight({});
-  BytePicture coverage(relit.size(), 1);
-  for (std::size_t pixel = 0; pixel < relit.size().pixels(); ++pixel)
-    coverage.samples()[pixel] = byteFromUnit(relit.samples()[4 * pixel + 3]);
+BytePicture coverageOf(const Relighter& relighter, const Capture& truth) {
+  const Size size = truth.size();
+  BytePicture coverage(size, 1);
+  const int step = bandRowsOf(truth);
+  for (int y = 0; y < size.height; y += step) {
+    const Picture relit = relighter.relightRegion({}, band(truth, y, step));
+    const auto out = coverage.samples().subspan(Size{size.width, y}.pixels());
+    for (std::size_t pixel = 0; pixel < relit.size().pixels(); ++pixel)
+      out[pixel] = byteFromUnit(relit.samples()[4 * pixel + 3]);
+  }
   return coverage;
 }
 
@@ -41,22 +60,56 @@ Picture withoutAlpha(const Picture& relit) {
 
 }  // namespace
 
-Comparison::Comparison(const Object& object, const Capture& truth, std::uint64_t tileMemoryBytes)
-    : object_(object), truth_(truth), relighter_(object, tileMemoryBytes) {
+Comparison::Comparison(const Object& object, const Capture& truth, std::uint64_t memoryBytes)
+    : object_(object),
+      truth_(truth),
+      memoryBytes_(memoryBytes > 0 ? memoryBytes : machineMemoryBytes() / 4),
+      tileBytes_(tileBytesOf(object, memoryBytes_)),
+      relighter_(object, tileBytes_) {
   checkComparable(object, truth);
   coverage_ = illum::coverageOf(truth);
-  if (coverage_.empty() && object.manifest().mask) coverage_ = coverageOf(relighter_);
+  if (coverage_.empty() && object.manifest().mask) coverage_ = coverageOf(relighter_, truth);
 }
 
-Picture Comparison::relit(int light) const {
+std::uint64_t Comparison::bandCount() const {
+  const int rows = bandRowsOf(truth_);
+  return static_cast<std::uint64_t>((truth_.size().height + rows - 1) / rows);
+}
+
+ComparedBand Comparison::compared(int light, const Rectangle& rows) const {
   const DirectionalLight& source = truth_.lights().at(static_cast<std::size_t>(light)).light;
-  Picture relit = relighter_.relight({&source, 1});
-  return relit.channels() == 4 ? withoutAlpha(relit) : relit;
+  Picture relit = relighter_.relightRegion({&source, 1}, rows);
+  if (relit.channels() == 4) relit = withoutAlpha(relit);
+  BytePicture bytes = displayBytes(relit);
+  return {std::move(relit), std::move(bytes),
+          readPhotograph(truth_, light, rows, object_.manifest().mask ? coverage_ : BytePicture())};
 }
 
-void Comparison::readPhotograph(int light,
-                                const std::function<void(const PhotographBand&)>& use) const {
-  illum::readPhotograph(truth_, light, object_.manifest().mask ? coverage_ : BytePicture(), use);
+int Comparison::lightsAtOnce(std::uint64_t keptBytes) const {
+  // Relit with and without alpha, samples and linear photograph in floats; two pictures in bytes.
+  constexpr std::uint64_t kBytesPerPixel = (4 + 3 + 3 + 3) * sizeof(float) + 2 * 3;
+  const Size size{truth_.size().width, bandRowsOf(truth_)};
+  const std::uint64_t held = truth_.residentBytes() + tileBytes_ + keptBytes;
+  const std::uint64_t free = memoryBytes_ > held ? memoryBytes_ - held : 0;
+  const auto threads = static_cast<std::uint64_t>(tbb::this_task_arena::max_concurrency());
+  return static_cast<int>(
+      std::clamp<std::uint64_t>(free / (size.pixels() * kBytesPerPixel), 1, threads));
+}
+
+void Comparison::forEachBand(
+    std::span<const int> lights, std::uint64_t keptBytes, Progress& progress,
+    const std::function<void(std::size_t i, const ComparedBand& band)>& use) const {
+  const int step = bandRowsOf(truth_);
+  tbb::task_arena arena(lightsAtOnce(keptBytes));
+  for (int y = 0; y < truth_.size().height; y += step) {
+    const Rectangle rows = band(truth_, y, step);
+    const auto underLight = [&](std::size_t i) {
+      // Isolated: a thread that waits inside must not begin another light and hold two.
+      tbb::this_task_arena::isolate([&] { use(i, compared(lights[i], rows)); });
+      progress.advance();
+    };
+    arena.execute([&] { tbb::parallel_for(std::size_t{0}, lights.size(), underLight); });
+  }
 }
 
 }  // namespace illum

@@ -1,11 +1,9 @@
 #include "illum/evaluate.h"
 
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
-
 #include <algorithm>
+#include <numeric>
+#include <span>
 
-#include "core/memory.h"
 #include "object/manifest.h"
 #include "study/comparison.h"
 #include "study/metrics.h"
@@ -32,57 +30,36 @@ bool isHeldOut(const LightFileEntry& light, const Manifest& manifest) {
   return !fitted;
 }
 
-/// How the memory that judging may take is shared out.
-struct MemoryPlan {
-  std::uint64_t tileBytes = 0;  ///< for the object's decoded tiles
-  int lightsAtOnce = 1;
-};
+/// The figures of one light, gathered from the top of the picture to its bottom.
+class LightJudge {
+ public:
+  LightJudge(Size size, std::span<const std::uint8_t> inside) : pictures_(size, inside) {}
 
-MemoryPlan planMemory(const Object& object, const Capture& truth, std::uint64_t memoryBytes) {
-  const std::uint64_t pixels = truth.size().pixels();
-  const std::uint64_t most = memoryBytes > 0 ? memoryBytes : machineMemoryBytes() / 4;
-  const std::uint64_t codes = pixels * static_cast<std::uint64_t>(object.planes()) * 2;
-  MemoryPlan plan;
-  plan.tileBytes = std::min(most / 2, codes);
-
-  // A light holds its relit picture with and without alpha in floats, and both pictures in bytes.
-  const std::uint64_t perLight = pixels * (7 * sizeof(float) + 6) + photographBandBytes(truth) + 1;
-  const std::uint64_t held = plan.tileBytes + truth.residentBytes();
-  const std::uint64_t fitting = most > held ? (most - held) / perLight : 0;
-  const auto threads = static_cast<std::uint64_t>(tbb::this_task_arena::max_concurrency());
-  plan.lightsAtOnce = static_cast<int>(std::clamp<std::uint64_t>(fitting, 1, threads));
-  return plan;
-}
-
-void addLinear(const Picture& relit, const PhotographBand& band, SquaredError& error) {
-  for (int y = 0; y < band.rows.height; ++y) {
-    const auto a = relit.row(band.rows.y + y);
-    const auto b = band.linear.row(y);
-    for (std::size_t i = 0; i < b.size(); ++i) error.add(double{a[i]} - double{b[i]});
+  void add(const ComparedBand& band) {
+    pictures_.addRows(band.relitBytes, band.photograph.bytes);
+    const auto relit = band.relit.samples();
+    const auto photograph = band.photograph.linear.samples();
+    for (std::size_t i = 0; i < photograph.size(); ++i)
+      linear_.add(double{relit[i]} - double{photograph[i]});
   }
-}
 
-LightResult judge(const Comparison& comparison, int light, std::span<const std::uint8_t> inside) {
-  const Picture relit = comparison.relit(light);
-  BytePicture photograph(relit.size(), 3);
-  SquaredError linear;
-  comparison.readPhotograph(light, [&](const PhotographBand& band) {
-    const auto bytes = band.bytes.samples();
-    std::copy(bytes.begin(), bytes.end(), photograph.row(band.rows.y).begin());
-    addLinear(relit, band, linear);
-  });
-  const MaskedErrors errors = comparePictures(displayBytes(relit), photograph, inside);
+  LightResult result(const LightFileEntry& light, const Manifest& manifest) const {
+    const MaskedErrors errors = pictures_.errors();
+    LightResult result;
+    result.name = light.name;
+    result.direction = light.light.toLight;
+    result.heldOut = isHeldOut(light, manifest);
+    result.all = errors.all;
+    result.masked = errors.inside;
+    result.linearRms = linear_.rms();
+    result.linearPsnrDecibels = psnrDecibels(linear_.mean(), 1);
+    return result;
+  }
 
-  const LightFileEntry& entry = comparison.truth().lights()[static_cast<std::size_t>(light)];
-  LightResult result;
-  result.name = entry.name;
-  result.direction = entry.light.toLight;
-  result.all = errors.all;
-  result.masked = errors.inside;
-  result.linearRms = linear.rms();
-  result.linearPsnrDecibels = psnrDecibels(linear.mean(), 1);
-  return result;
-}
+ private:
+  PictureComparison pictures_;
+  SquaredError linear_;
+};
 
 /// Per pixel 1 where coverage exceeds one half; empty without a mask.
 std::vector<std::uint8_t> insideOf(const BytePicture& coverage) {
@@ -112,19 +89,24 @@ ErrorSummary summarise(const std::vector<LightResult>& lights, bool heldOut) {
   return summary;
 }
 
-/// Every light once, each read from its top to its bottom, `atOnce` side by side.
-std::vector<LightResult> judgeAll(const Comparison& comparison, int atOnce, Progress& progress) {
+std::vector<LightResult> judgeAll(const Comparison& comparison, const Manifest& manifest,
+                                  Progress& progress) {
+  const std::vector<LightFileEntry>& lights = comparison.truth().lights();
+  const Size size = comparison.truth().size();
   const std::vector<std::uint8_t> inside = insideOf(comparison.coverage());
-  std::vector<LightResult> results(comparison.truth().lights().size());
-  tbb::task_arena arena(atOnce);
-  arena.execute([&] {
-    tbb::parallel_for(std::size_t{0}, results.size(), [&](std::size_t light) {
-      // Isolated: a thread that waits inside must not begin another light and hold two.
-      tbb::this_task_arena::isolate(
-          [&] { results[light] = judge(comparison, static_cast<int>(light), inside); });
-      progress.advance();
-    });
-  });
+  std::vector<int> indices(lights.size());
+  std::iota(indices.begin(), indices.end(), 0);
+  std::vector<LightJudge> judges(lights.size(), LightJudge(size, inside));
+
+  progress.begin("judging " + std::to_string(lights.size()) + " lights",
+                 comparison.bandCount() * lights.size());
+  comparison.forEachBand(indices, inside.size() + lights.size() * ssimScanBytes(size), progress,
+                         [&](std::size_t i, const ComparedBand& band) { judges[i].add(band); });
+  progress.end();
+
+  std::vector<LightResult> results;
+  for (std::size_t i = 0; i < lights.size(); ++i)
+    results.push_back(judges[i].result(lights[i], manifest));
   return results;
 }
 
@@ -132,16 +114,9 @@ std::vector<LightResult> judgeAll(const Comparison& comparison, int atOnce, Prog
 
 Evaluation evaluate(const Object& object, const Capture& truth, Progress& progress,
                     std::uint64_t memoryBytes) {
-  const MemoryPlan plan = planMemory(object, truth, memoryBytes);
-  const Comparison comparison(object, truth, plan.tileBytes);
-  progress.begin("judging " + std::to_string(truth.lights().size()) + " lights",
-                 truth.lights().size());
+  const Comparison comparison(object, truth, memoryBytes);
   Evaluation evaluation;
-  evaluation.lights = judgeAll(comparison, plan.lightsAtOnce, progress);
-  progress.end();
-
-  for (std::size_t i = 0; i < evaluation.lights.size(); ++i)
-    evaluation.lights[i].heldOut = isHeldOut(truth.lights()[i], object.manifest());
+  evaluation.lights = judgeAll(comparison, object.manifest(), progress);
   evaluation.used = summarise(evaluation.lights, false);
   evaluation.heldOut = summarise(evaluation.lights, true);
   evaluation.hasMask = !comparison.coverage().empty();

@@ -130,16 +130,32 @@ TEST(Evaluate, OnlyLightsThatTheFitSawAreUsed) {
   EXPECT_EQ(evaluation.heldOut.lights, 4);
 }
 
-TEST(Evaluate, EveryPhotographIsReadOnceFromTheTop) {
+TEST(Evaluate, BandsAreReadOnceFromTheTopForAllLights) {
+  // A sequential capture decodes all photographs side by side: going back costs all of them again.
   const TemporaryFolder folder("bands");
   const auto lights = ringOfLights(9);
   const Object object = makeObject(folder.path() / "a.illum", {kSize, pattern, lights, {}});
-  FakeCapture capture(kSize, Transfer::Display, lights,
-                      [](int, int x, int y, int c) { return unit(pattern(x, y, c)); });
-  capture.withBandRows(16);
-  EXPECT_EQ(judged(object, capture).used.all.psnrDecibels, 99);
-  EXPECT_EQ(capture.backwardReads(), 0);
-  EXPECT_EQ(capture.reads(), 9 * 5);
+  const auto sample = [](int light, int x, int y, int c) {
+    return unit(pattern(x, y, c) + (x * y + light) % 7);
+  };
+  const FakeCapture whole(kSize, Transfer::Display, lights, sample);
+  FakeCapture bands(kSize, Transfer::Display, lights, sample);
+  bands.withBandRows(16);
+  Progress progress;
+  const Evaluation expected = judged(object, whole);
+  const Evaluation evaluation = evaluate(object, bands, progress, 1);
+  EXPECT_EQ(bands.backwardReads(), 0);
+  EXPECT_EQ(bands.reads(), 9 * 5);
+  for (std::size_t i = 0; i < lights.size(); ++i) {
+    EXPECT_EQ(evaluation.lights[i].all.psnrDecibels, expected.lights[i].all.psnrDecibels);
+    EXPECT_EQ(evaluation.lights[i].all.ssim, expected.lights[i].all.ssim);
+    EXPECT_NEAR(evaluation.lights[i].linearRms, expected.lights[i].linearRms, 1e-12);
+  }
+
+  const int before = bands.reads();
+  htmlReport(object, bands, evaluation);
+  EXPECT_EQ(bands.reads() - before, 6 * 5);
+  EXPECT_EQ(bands.backwardReads(), 0);
 }
 
 /// Inside x < 75 the object is right, outside it is wrong by 20; the mask covers the inside alone.

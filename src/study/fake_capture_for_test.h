@@ -55,21 +55,17 @@ class FakeCapture : public Capture {
   std::uint64_t residentBytes() const override { return 0; }
   std::string fingerprint() const override { return "fake"; }
 
-  /// Reads that did not go on where the last one of the same light had ended: each would make a
-  /// sequential format decode again from its top.
+  /// Reads that began above the lowest rows so far, unless at the very top: each would make
+  /// sequential formats decode all photographs again.
   int backwardReads() const { return backwardReads_; }
   int reads() const { return reads_; }
 
  private:
   void noteRead(const Rectangle& rectangle, std::span<const int> lights) const {
     const std::scoped_lock lock(mutex_);
-    nextRow_.resize(lights_.size(), 0);
-    for (const int light : lights) {
-      int& next = nextRow_[static_cast<std::size_t>(light)];
-      backwardReads_ += rectangle.y != next;
-      next = rectangle.bottom();
-      ++reads_;
-    }
+    backwardReads_ += rectangle.y > 0 && rectangle.y < lowest_;
+    lowest_ = rectangle.y;
+    reads_ += static_cast<int>(lights.size());
   }
 
   Size size_;
@@ -79,8 +75,7 @@ class FakeCapture : public Capture {
   Coverage coverage_;
   int bandRows_ = 0;
   mutable std::mutex mutex_;
-  mutable std::vector<int> nextRow_;
-  mutable int backwardReads_ = 0, reads_ = 0;
+  mutable int lowest_ = 0, backwardReads_ = 0, reads_ = 0;
 };
 
 /// `count` lights around the optical axis, 45 degrees high, named light0.png, light1.png, ...

@@ -6,7 +6,6 @@
 #include <string>
 
 #include "illum/error.h"
-#include "study/ssim.h"
 
 namespace illum {
 namespace {
@@ -33,9 +32,8 @@ std::uint64_t squaredDifferences(std::span<const std::uint8_t> a, std::span<cons
   return sum;
 }
 
-SquaredError errorInside(const BytePicture& picture, const BytePicture& truth,
-                         std::span<const std::uint8_t> inside) {
-  SquaredError error;
+void addInside(const BytePicture& picture, const BytePicture& truth,
+               std::span<const std::uint8_t> inside, SquaredError& error) {
   const auto channels = static_cast<std::size_t>(truth.channels());
   for (std::size_t pixel = 0; pixel < inside.size(); ++pixel) {
     if (inside[pixel] == 0) continue;
@@ -43,7 +41,6 @@ SquaredError errorInside(const BytePicture& picture, const BytePicture& truth,
     const auto b = truth.samples().subspan(pixel * channels, channels);
     error.addSum(static_cast<double>(squaredDifferences(a, b)), channels);
   }
-  return error;
 }
 
 PictureError figures(const SquaredError& error, double ssim) {
@@ -67,16 +64,32 @@ double psnrDecibels(double meanSquaredError, double peak) {
   return std::min(kMaxPsnrDecibels, 10 * std::log10(peak * peak / meanSquaredError));
 }
 
+PictureComparison::PictureComparison(Size size, std::span<const std::uint8_t> inside)
+    : size_(size), inside_(inside), ssim_(size) {}
+
+void PictureComparison::addRows(const BytePicture& picture, const BytePicture& truth) {
+  checkComparable(picture, truth);
+  all_.addSum(static_cast<double>(squaredDifferences(picture.samples(), truth.samples())),
+              truth.samples().size());
+  if (!inside_.empty()) {
+    const auto begin = Size{size_.width, rows_}.pixels();
+    addInside(picture, truth, inside_.subspan(begin, truth.size().pixels()), masked_);
+  }
+  ssim_.addRows(picture, truth, inside_);
+  rows_ += truth.height();
+}
+
+MaskedErrors PictureComparison::errors() const {
+  const Ssim ssim = ssim_.means();
+  return {figures(all_, ssim.all), figures(inside_.empty() ? all_ : masked_, ssim.inside)};
+}
+
 MaskedErrors comparePictures(const BytePicture& picture, const BytePicture& truth,
                              std::span<const std::uint8_t> inside) {
   checkComparable(picture, truth);
-  SquaredError all;
-  all.addSum(static_cast<double>(squaredDifferences(picture.samples(), truth.samples())),
-             truth.samples().size());
-  const Ssim ssim = structuralSimilarity(picture, truth, inside);
-  MaskedErrors errors{figures(all, ssim.all), figures(all, ssim.all)};
-  if (!inside.empty()) errors.inside = figures(errorInside(picture, truth, inside), ssim.inside);
-  return errors;
+  PictureComparison comparison(truth.size(), inside);
+  comparison.addRows(picture, truth);
+  return comparison.errors();
 }
 
 PictureError comparePictures(const BytePicture& picture, const BytePicture& truth) {

@@ -6,6 +6,7 @@
 
 #include "illum/evaluate.h"
 #include "illum/picture.h"
+#include "study/ssim.h"
 
 namespace illum {
 
@@ -36,9 +37,29 @@ struct MaskedErrors {
   PictureError all, inside;
 };
 
-/// `inside`: per pixel, not 0 where it counts for `.inside`; empty: `.inside` equals `.all`.
-/// Figures over no pixel at all are NaN. Both pictures have one size and 1 or 3 channels each
-/// alike; throws Error (Fault::Usage) otherwise.
+/// Compares two pictures that arrive from the top, a few rows at a time.
+class PictureComparison {
+ public:
+  /// `inside`: per pixel of the whole picture, not 0 where it counts for MaskedErrors::inside;
+  /// empty: everywhere. It must outlive *this.
+  PictureComparison(Size size, std::span<const std::uint8_t> inside);
+
+  /// The next rows, whole width. Both have one size and 1 or 3 channels each alike; throws Error
+  /// (Fault::Usage) otherwise.
+  void addRows(const BytePicture& picture, const BytePicture& truth);
+
+  /// Of the rows so far. Figures over no pixel at all are NaN.
+  MaskedErrors errors() const;
+
+ private:
+  Size size_;
+  std::span<const std::uint8_t> inside_;
+  int rows_ = 0;
+  SquaredError all_, masked_;
+  SsimScan ssim_;
+};
+
+/// Of whole pictures.
 MaskedErrors comparePictures(const BytePicture& picture, const BytePicture& truth,
                              std::span<const std::uint8_t> inside);
 

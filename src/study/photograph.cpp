@@ -2,28 +2,16 @@
 
 #include <algorithm>
 #include <array>
+#include <span>
+#include <vector>
 
 #include "illum/colour.h"
 
 namespace illum {
 namespace {
 
-/// Where order and height do not matter to the capture: enough pixels to make a read worthwhile,
-/// few enough to stay in a cache.
-constexpr int kFreeBandPixels = 1 << 18;
-
-int bandRowsOf(const Capture& capture) {
-  const Size size = capture.size();
-  if (capture.bandRows() < size.height) return std::max(1, capture.bandRows());
-  return std::clamp(kFreeBandPixels / std::max(1, size.width), 1, std::max(1, size.height));
-}
-
-void forEachBand(const Capture& capture, const std::function<void(const Rectangle&)>& use) {
-  const Size size = capture.size();
-  const int step = bandRowsOf(capture);
-  for (int y = 0; y < size.height; y += step)
-    use({0, y, size.width, std::min(step, size.height - y)});
-}
+/// Where the capture has no preference: pixels enough to make a step worthwhile.
+constexpr int kFreeBandPixels = 1 << 20;
 
 /// One sample as it was photographed: linear, and as a byte.
 struct Shown {
@@ -64,41 +52,41 @@ void showChannel(std::span<const float> samples, std::span<const std::uint8_t> c
 
 }  // namespace
 
-void readPhotograph(const Capture& capture, int light, const BytePicture& coverage,
-                    const std::function<void(const PhotographBand&)>& use) {
+int bandRowsOf(const Capture& capture) {
+  const Size size = capture.size();
+  if (capture.bandRows() < size.height) return std::max(1, capture.bandRows());
+  return std::clamp(kFreeBandPixels / std::max(1, size.width), 1, std::max(1, size.height));
+}
+
+PhotographBand readPhotograph(const Capture& capture, int light, const Rectangle& rows,
+                              const BytePicture& coverage) {
   const LinearRgb intensity = capture.lights().at(static_cast<std::size_t>(light)).light.intensity;
   const std::array<float, 3> factors{intensity.r, intensity.g, intensity.b};
-  std::vector<float> samples;
-  forEachBand(capture, [&](const Rectangle& rows) {
-    samples.resize(3 * rows.pixels());
-    capture.read(0, rows, {&light, 1}, samples);
-    PhotographBand band{rows, Picture(rows.size(), 3), BytePicture(rows.size(), 3)};
-    std::span<const std::uint8_t> covered = coverage.samples();
-    if (!covered.empty())
-      covered = covered.subspan(Size{rows.width, rows.y}.pixels(), rows.pixels());
-    for (std::size_t c = 0; c < 3; ++c)
-      showChannel(std::span(samples).subspan(c * rows.pixels(), rows.pixels()), covered,
-                  capture.transfer(), factors[c], c, band);
-    use(band);
-  });
+  std::vector<float> samples(3 * rows.pixels());
+  capture.read(0, rows, {&light, 1}, samples);
+
+  PhotographBand band{rows, Picture(rows.size(), 3), BytePicture(rows.size(), 3)};
+  std::span<const std::uint8_t> covered = coverage.samples();
+  if (!covered.empty()) covered = covered.subspan(Size{rows.width, rows.y}.pixels(), rows.pixels());
+  for (std::size_t c = 0; c < 3; ++c)
+    showChannel(std::span(samples).subspan(c * rows.pixels(), rows.pixels()), covered,
+                capture.transfer(), factors[c], c, band);
+  return band;
 }
 
 BytePicture coverageOf(const Capture& capture) {
   if (!capture.hasMask()) return {};
-  BytePicture coverage(capture.size(), 1);
-  std::vector<float> band;
-  forEachBand(capture, [&](const Rectangle& rows) {
-    band.resize(rows.pixels());
+  const Size size = capture.size();
+  const int step = bandRowsOf(capture);
+  BytePicture coverage(size, 1);
+  for (int y = 0; y < size.height; y += step) {
+    const Rectangle rows{0, y, size.width, std::min(step, size.height - y)};
+    std::vector<float> band(rows.pixels());
     capture.readMask(0, rows, band);
-    const auto out = coverage.samples().subspan(Size{rows.width, rows.y}.pixels(), rows.pixels());
+    const auto out = coverage.samples().subspan(Size{size.width, y}.pixels(), rows.pixels());
     std::transform(band.begin(), band.end(), out.begin(), byteFromUnit);
-  });
+  }
   return coverage;
-}
-
-std::uint64_t photographBandBytes(const Capture& capture) {
-  const Size band{capture.size().width, bandRowsOf(capture)};
-  return band.pixels() * (3 * sizeof(float) + 3 * sizeof(float) + 3);
 }
 
 }  // namespace illum

@@ -14,13 +14,8 @@ int byteAt(int light, int x, int y, int channel) {
 }
 
 BytePicture wholeBytes(const Capture& capture, int light, const BytePicture& coverage = {}) {
-  BytePicture whole(capture.size(), 3);
-  readPhotograph(capture, light, coverage, [&](const PhotographBand& band) {
-    for (int y = 0; y < band.rows.height; ++y)
-      std::copy(band.bytes.row(y).begin(), band.bytes.row(y).end(),
-                whole.row(band.rows.y + y).begin());
-  });
-  return whole;
+  const Size size = capture.size();
+  return readPhotograph(capture, light, {0, 0, size.width, size.height}, coverage).bytes;
 }
 
 TEST(Photograph, DisplayReferredBytesComeBackExactly) {
@@ -55,12 +50,11 @@ TEST(Photograph, DisplayReferredBytesSurviveTheDivisionByIntensity) {
 TEST(Photograph, LinearSamplesAreShownTimesTheirIntensity) {
   const FakeCapture capture({4, 4}, Transfer::Linear, ringOfLights(1, {2, 1, 0.5f}),
                             [](int, int, int, int) { return 0.25f; });
-  readPhotograph(capture, 0, {}, [](const PhotographBand& band) {
-    EXPECT_EQ(band.linear.at(1, 1, 0), 0.5f);
-    EXPECT_EQ(band.linear.at(1, 1, 2), 0.125f);
-    EXPECT_EQ(band.bytes.at(1, 1, 0), displayByteFromLinear(0.5f));
-    EXPECT_EQ(band.bytes.at(1, 1, 1), displayByteFromLinear(0.25f));
-  });
+  const PhotographBand band = readPhotograph(capture, 0, {0, 0, 4, 4}, {});
+  EXPECT_EQ(band.linear.at(1, 1, 0), 0.5f);
+  EXPECT_EQ(band.linear.at(1, 1, 2), 0.125f);
+  EXPECT_EQ(band.bytes.at(1, 1, 0), displayByteFromLinear(0.5f));
+  EXPECT_EQ(band.bytes.at(1, 1, 1), displayByteFromLinear(0.25f));
 }
 
 TEST(Photograph, CoverageMultipliesInLinearLight) {
@@ -75,20 +69,30 @@ TEST(Photograph, CoverageMultipliesInLinearLight) {
   EXPECT_EQ(whole.at(2, 0, 2), 0);
 }
 
-TEST(Photograph, BandsCoverEveryRowOnceFromTheTop) {
-  for (const int bandRows : {1, 3, 8, 13, 50}) {
-    FakeCapture capture({5, 13}, Transfer::Linear, ringOfLights(1),
-                        [](int, int x, int y, int) { return static_cast<float>(y * 5 + x) / 65; });
-    capture.withBandRows(bandRows);
-    int next = 0;
-    readPhotograph(capture, 0, {}, [&](const PhotographBand& band) {
-      EXPECT_EQ(band.rows, (Rectangle{0, next, 5, std::min(bandRows, 13 - next)}));
-      EXPECT_EQ(band.linear.at(2, 0, 0), static_cast<float>(next * 5 + 2) / 65);
-      next = band.rows.bottom();
-    });
-    EXPECT_EQ(next, 13) << bandRows;
-    EXPECT_EQ(capture.backwardReads(), 0);
-  }
+TEST(Photograph, ABandIsACutOfTheWhole) {
+  const FakeCapture capture(
+      {5, 13}, Transfer::Display, ringOfLights(1),
+      [](int, int x, int y, int) { return static_cast<float>(y * 5 + x) / 255; });
+  BytePicture coverage({5, 13}, 1);
+  for (std::size_t i = 0; i < 65; ++i) coverage.samples()[i] = i % 2 == 0 ? 255 : 0;
+  const PhotographBand band = readPhotograph(capture, 0, {0, 4, 5, 3}, coverage);
+  EXPECT_EQ(band.rows, (Rectangle{0, 4, 5, 3}));
+  ASSERT_EQ(band.bytes.size(), (Size{5, 3}));
+  for (int y = 0; y < 3; ++y)
+    for (int x = 0; x < 5; ++x) {
+      const int value = 5 * (4 + y) + x;
+      EXPECT_EQ(band.bytes.at(x, y, 1), value % 2 == 0 ? value : 0) << x << " " << y;
+    }
+}
+
+TEST(Photograph, BandsAreThoseOfTheCapture) {
+  FakeCapture capture({100, 50}, Transfer::Linear, ringOfLights(1),
+                      [](int, int, int, int) { return 0.0f; });
+  EXPECT_EQ(bandRowsOf(capture), 50);
+  EXPECT_EQ(bandRowsOf(capture.withBandRows(7)), 7);
+  const FakeCapture large({1 << 16, 50}, Transfer::Linear, ringOfLights(1),
+                          [](int, int, int, int) { return 0.0f; });
+  EXPECT_EQ(bandRowsOf(large), 16);
 }
 
 TEST(Photograph, TheMaskIsReadAsBytes) {

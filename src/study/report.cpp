@@ -134,28 +134,35 @@ std::string directionText(Direction direction) {
 }
 
 /// Photograph, relit picture and error of one light, side by side.
-std::string trio(const Comparison& comparison, const Evaluation& evaluation, std::size_t light) {
-  const LightResult& result = evaluation.lights[light];
-  const ReportPictures pictures = reportPictures(comparison, static_cast<int>(light));
+std::string trio(const LightResult& light, const ReportPictures& pictures) {
   std::string html = fmt::format(
       "<section class=\"trio\">\n<header><b>{}</b><span>{} dB</span><span>SSIM {}</span>"
       "<span class=\"quiet\">{}</span>{}</header>\n",
-      htmlText(result.name), figureText(result.all.psnrDecibels, 2), figureText(result.all.ssim, 3),
-      directionText(result.direction), result.heldOut ? "<span class=\"tag\">held out</span>" : "");
+      htmlText(light.name), figureText(light.all.psnrDecibels, 2), figureText(light.all.ssim, 3),
+      directionText(light.direction), light.heldOut ? "<span class=\"tag\">held out</span>" : "");
   html += imageTag(pictures.photograph, "Photograph") + imageTag(pictures.relit, "Relit") +
           imageTag(pictures.error, fmt::format("Error × {}", kErrorGain));
   return html + "</section>\n";
 }
 
-std::string pictureSections(const Comparison& comparison, const Evaluation& evaluation) {
+/// The worst lights, then the best of the others, best first.
+std::vector<int> lightsToShow(const Evaluation& evaluation) {
   const std::vector<std::size_t> order = worstFirst(evaluation);
   const std::size_t worst = std::min(kShownLights, order.size());
   const std::size_t best = std::min(kShownLights, order.size() - worst);
-  std::string html = worst == 1 ? "<h2>The light</h2>\n" : "<h2>Worst lights</h2>\n";
-  for (std::size_t i = 0; i < worst; ++i) html += trio(comparison, evaluation, order[i]);
-  if (best > 0) html += "<h2>Best lights</h2>\n";
-  for (std::size_t i = 0; i < best; ++i)
-    html += trio(comparison, evaluation, order[order.size() - 1 - i]);
+  std::vector<int> shown(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(worst));
+  shown.insert(shown.end(), order.rbegin(), order.rbegin() + static_cast<std::ptrdiff_t>(best));
+  return shown;
+}
+
+std::string pictureSections(const Comparison& comparison, const Evaluation& evaluation) {
+  const std::vector<int> shown = lightsToShow(evaluation);
+  const std::vector<ReportPictures> pictures = reportPictures(comparison, shown);
+  std::string html = shown.size() == 1 ? "<h2>The light</h2>\n" : "<h2>Worst lights</h2>\n";
+  for (std::size_t i = 0; i < shown.size(); ++i) {
+    if (i == kShownLights) html += "<h2>Best lights</h2>\n";
+    html += trio(evaluation.lights[static_cast<std::size_t>(shown[i])], pictures[i]);
+  }
   return html;
 }
 
@@ -195,8 +202,9 @@ constexpr std::string_view kFooter =
 
 }  // namespace
 
-std::string htmlReport(const Object& object, const Capture& truth, const Evaluation& evaluation) {
-  const Comparison comparison(object, truth, machineMemoryBytes() / 8);
+std::string htmlReport(const Object& object, const Capture& truth, const Evaluation& evaluation,
+                       std::uint64_t memoryBytes) {
+  const Comparison comparison(object, truth, memoryBytes);
   const std::string title = htmlText(object.path().filename().string());
   std::string html =
       "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"

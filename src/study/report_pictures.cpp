@@ -51,12 +51,12 @@ class BoxReducer {
   Picture sums_;
 };
 
-std::vector<float> amplifiedDifference(std::span<const float> relit,
+std::vector<float> amplifiedDifference(std::span<const std::uint8_t> relit,
                                        std::span<const std::uint8_t> photograph) {
   std::vector<float> difference(relit.size());
   for (std::size_t i = 0; i < relit.size(); ++i) {
-    const int bytes = int{displayByteFromLinear(relit[i])} - int{photograph[i]};
-    difference[i] = static_cast<float>(kErrorGain * std::abs(bytes)) / 255;
+    const int bytes = kErrorGain * std::abs(int{relit[i]} - int{photograph[i]});
+    difference[i] = static_cast<float>(bytes) / 255;
   }
   return difference;
 }
@@ -69,23 +69,42 @@ BytePicture bytesFromUnit(const Picture& units) {
   return bytes;
 }
 
+/// The three pictures of one light while they grow.
+struct Growing {
+  BoxReducer photograph, relit, error;
+
+  Growing(Size size, int factor)
+      : photograph(size, factor), relit(size, factor), error(size, factor) {}
+
+  void add(const ComparedBand& band) {
+    for (int y = 0; y < band.photograph.rows.height; ++y) {
+      const int row = band.photograph.rows.y + y;
+      photograph.addRow(row, band.photograph.linear.row(y));
+      relit.addRow(row, band.relit.row(y));
+      error.addRow(row, amplifiedDifference(band.relitBytes.row(y), band.photograph.bytes.row(y)));
+    }
+  }
+
+  ReportPictures finished() const {
+    return {displayBytes(photograph.means()), displayBytes(relit.means()),
+            bytesFromUnit(error.means())};
+  }
+};
+
 }  // namespace
 
-ReportPictures reportPictures(const Comparison& comparison, int light) {
-  const Picture relit = comparison.relit(light);
-  const int factor = reduction(relit.size());
-  BoxReducer photograph(relit.size(), factor), picture(relit.size(), factor),
-      error(relit.size(), factor);
-  comparison.readPhotograph(light, [&](const PhotographBand& band) {
-    for (int y = 0; y < band.rows.height; ++y) {
-      const int row = band.rows.y + y;
-      photograph.addRow(row, band.linear.row(y));
-      picture.addRow(row, relit.row(row));
-      error.addRow(row, amplifiedDifference(relit.row(row), band.bytes.row(y)));
-    }
-  });
-  return {displayBytes(photograph.means()), displayBytes(picture.means()),
-          bytesFromUnit(error.means())};
+std::vector<ReportPictures> reportPictures(const Comparison& comparison,
+                                           std::span<const int> lights) {
+  const Size size = comparison.truth().size();
+  std::vector<Growing> growing(lights.size(), Growing(size, reduction(size)));
+  const std::uint64_t kept =
+      lights.size() * 3 * 3 * sizeof(float) * Size{kReportPictureSide, kReportPictureSide}.pixels();
+  Progress silent;
+  comparison.forEachBand(lights, kept, silent,
+                         [&](std::size_t i, const ComparedBand& band) { growing[i].add(band); });
+  std::vector<ReportPictures> pictures;
+  for (const Growing& light : growing) pictures.push_back(light.finished());
+  return pictures;
 }
 
 }  // namespace illum

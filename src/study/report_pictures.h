@@ -2,6 +2,9 @@
 // embed.
 #pragma once
 
+#include <span>
+#include <vector>
+
 #include "illum/picture.h"
 #include "study/comparison.h"
 
@@ -19,7 +22,9 @@ struct ReportPictures {
                       ///< pixel stands for
 };
 
-/// Reduced by a whole factor, in linear light, until neither side exceeds kReportPictureSide.
-ReportPictures reportPictures(const Comparison& comparison, int light);
+/// Of each of `lights` (indices), in one pass over the capture. Reduced by a whole factor, in
+/// linear light, until neither side exceeds kReportPictureSide.
+std::vector<ReportPictures> reportPictures(const Comparison& comparison,
+                                           std::span<const int> lights);
 
 }  // namespace illum

@@ -81,6 +81,11 @@ TEST(Report, HostileNamesStayText) {
   EXPECT_THAT(html, HasSubstr("<h1>&lt;b&gt;&amp;&#39;.illum</h1>"));
 }
 
+ReportPictures onlyPictures(const Object& object, const Capture& capture) {
+  const std::vector<int> lights{0};
+  return reportPictures(Comparison(object, capture, 1 << 20), lights).at(0);
+}
+
 TEST(ReportPictures, AreReducedToABoundedSize) {
   const TemporaryFolder folder("reduced");
   const auto lights = ringOfLights(1);
@@ -89,7 +94,7 @@ TEST(ReportPictures, AreReducedToABoundedSize) {
     FakeCapture capture(size, Transfer::Display, lights,
                         [](int, int, int, int) { return 103.0f / 255; });
     capture.withBandRows(3);
-    const ReportPictures pictures = reportPictures(Comparison(object, capture, 1 << 20), 0);
+    const ReportPictures pictures = onlyPictures(object, capture);
     const int factor = size.width > 1280 ? 3 : size.width > 640 || size.height > 640 ? 2 : 1;
     const Size expected{(size.width + factor - 1) / factor, (size.height + factor - 1) / factor};
     EXPECT_EQ(pictures.photograph.size(), expected);
@@ -107,7 +112,7 @@ TEST(ReportPictures, LargeErrorsAreWhite) {
   const Object object = makeObject(folder.path() / "a.illum", {{8, 8}, grey, lights, {}});
   const FakeCapture capture({8, 8}, Transfer::Display, lights,
                             [](int, int, int, int) { return 1.0f; });
-  const ReportPictures pictures = reportPictures(Comparison(object, capture, 1 << 20), 0);
+  const ReportPictures pictures = onlyPictures(object, capture);
   for (const auto byte : pictures.error.samples()) ASSERT_EQ(byte, 255);
 }
 

@@ -21,10 +21,9 @@ MomentRows momentRowsOf(int width) {
   return rows;
 }
 
-void fillMoments(const BytePicture& picture, const BytePicture& truth, int y, MomentRows& rows) {
+/// From the first two moments, which hold the luma of both.
+void fillMoments(MomentRows& rows) {
   auto& [a, b, squares, product] = rows;
-  lumaRow(picture, y, a);
-  lumaRow(truth, y, b);
   for (std::size_t x = 0; x < a.size(); ++x) {
     a[x] -= kMidGrey;
     b[x] -= kMidGrey;
@@ -56,31 +55,30 @@ float similarity(float meanA, float meanB, float meanSquares, float meanProduct)
   return (2 * a * b + c1) * (2 * covariance + c2) / ((a * a + b * b + c1) * (variances + c2));
 }
 
-/// Goes down both pictures once, keeping the last window's rows.
-class WindowScan {
+int side(const std::vector<float>& weights) {
+  return static_cast<int>(weights.size());
+}
+
+/// The last rows of a scan, as many as a window is high, and what a window's row makes of them.
+class WindowRows {
  public:
-  WindowScan(const BytePicture& picture, const BytePicture& truth)
-      : picture_(picture),
-        truth_(truth),
-        across_(ssimWeights(truth.width())),
-        down_(ssimWeights(truth.height())),
-        ring_(down_.size(), momentRowsOf(truth.width())),
-        column_(momentRowsOf(truth.width())),
-        window_(momentRowsOf(outputs())) {}
+  WindowRows(int width, const std::vector<float>& across, const std::vector<float>& down)
+      : across_(across),
+        down_(down),
+        ring_(down.size(), momentRowsOf(width)),
+        column_(momentRowsOf(width)),
+        window_(momentRowsOf(width - side(across) + 1)) {}
 
-  int outputs() const { return truth_.width() - side(across_) + 1; }
-  int outputRows() const { return truth_.height() - side(down_) + 1; }
-  int marginX() const { return side(across_) / 2; }
-  int marginY() const { return side(down_) / 2; }
+  /// Where row y of the picture stands.
+  MomentRows& row(int y) { return ring_[static_cast<std::size_t>(y) % ring_.size()]; }
+  int outputs() const { return static_cast<int>(window_[0].size()); }
 
-  /// The similarities of the windows whose top row is `top`; tops come in order from 0.
-  void nextRow(int top, std::span<float> out) {
-    const int end = top + side(down_);
-    for (int y = top == 0 ? 0 : end - 1; y < end; ++y) fillMoments(picture_, truth_, y, slot(y));
+  /// The similarities of the windows whose top row is `top`.
+  void similarities(int top, std::span<float> out) {
     for (std::size_t m = 0; m < kMoments; ++m) {
       std::array<const float*, kSsimWindow> rows{};
       for (int t = 0; t < side(down_); ++t)
-        rows[static_cast<std::size_t>(t)] = slot(top + t)[m].data();
+        rows[static_cast<std::size_t>(t)] = row(top + t)[m].data();
       averageRows({rows.data(), down_.size()}, down_, column_[m]);
       for (std::size_t t = 0; t < across_.size(); ++t) rows[t] = column_[m].data() + t;
       averageRows({rows.data(), across_.size()}, across_, window_[m]);
@@ -90,12 +88,7 @@ class WindowScan {
   }
 
  private:
-  static int side(const std::vector<float>& weights) { return static_cast<int>(weights.size()); }
-  MomentRows& slot(int y) { return ring_[static_cast<std::size_t>(y) % ring_.size()]; }
-
-  const BytePicture& picture_;
-  const BytePicture& truth_;
-  std::vector<float> across_, down_;
+  const std::vector<float>&across_, &down_;
   std::vector<MomentRows> ring_;
   MomentRows column_, window_;
 };
@@ -133,27 +126,68 @@ void lumaRow(const BytePicture& picture, int y, std::span<float> luma) {
     luma[x] = 0.2126f * row[3 * x] + 0.7152f * row[3 * x + 1] + 0.0722f * row[3 * x + 2];
 }
 
+SsimScan::SsimScan(Size size)
+    : size_(size),
+      across_(ssimWeights(size.width)),
+      down_(ssimWeights(size.height)),
+      kept_(2 * Size{size.width, side(down_) - 1}.pixels()) {}
+
+void SsimScan::addRows(const BytePicture& picture, const BytePicture& truth,
+                       std::span<const std::uint8_t> inside) {
+  WindowRows rows(size_.width, across_, down_);
+  const int before = side(down_) - 1;
+  const auto width = static_cast<std::size_t>(size_.width);
+  const auto kept = [&](int y, std::size_t which) {
+    const auto slot = static_cast<std::size_t>(y % before);
+    return std::span(kept_).subspan((2 * slot + which) * width, width);
+  };
+  for (int y = std::max(0, rows_ - before); y < rows_; ++y) {
+    for (const std::size_t which : {0, 1})
+      std::copy_n(kept(y, which).begin(), width, rows.row(y)[which].begin());
+    fillMoments(rows.row(y));
+  }
+  std::vector<float> similarities(static_cast<std::size_t>(rows.outputs()));
+  for (int i = 0; i < truth.height(); ++i, ++rows_) {
+    MomentRows& row = rows.row(rows_);
+    lumaRow(picture, i, row[0]);
+    lumaRow(truth, i, row[1]);
+    for (const std::size_t which : {0, 1})
+      if (before > 0) std::copy_n(row[which].begin(), width, kept(rows_, which).begin());
+    fillMoments(row);
+    if (rows_ < before) continue;
+    rows.similarities(rows_ - before, similarities);
+    addWindows(rows_ - before, similarities, inside);
+  }
+}
+
+void SsimScan::addWindows(int top, std::span<const float> similarities,
+                          std::span<const std::uint8_t> inside) {
+  const std::size_t centre = Size{size_.width, top + side(down_) / 2}.pixels() + across_.size() / 2;
+  for (std::size_t x = 0; x < similarities.size(); ++x) {
+    sum_ += similarities[x];
+    if (inside.empty() || inside[centre + x] == 0) continue;
+    insideSum_ += similarities[x];
+    ++insideCount_;
+  }
+  count_ += similarities.size();
+  if (!inside.empty()) return;
+  insideSum_ = sum_;
+  insideCount_ = count_;
+}
+
+Ssim SsimScan::means() const {
+  return {ratio(sum_, count_), ratio(insideSum_, insideCount_)};
+}
+
 Ssim structuralSimilarity(const BytePicture& picture, const BytePicture& truth,
                           std::span<const std::uint8_t> inside) {
-  WindowScan scan(picture, truth);
-  std::vector<float> row(static_cast<std::size_t>(scan.outputs()));
-  double sum = 0, insideSum = 0;
-  std::size_t count = 0, insideCount = 0;
-  for (int top = 0; top < scan.outputRows(); ++top) {
-    scan.nextRow(top, row);
-    const std::size_t centre =
-        static_cast<std::size_t>(top + scan.marginY()) * static_cast<std::size_t>(truth.width()) +
-        static_cast<std::size_t>(scan.marginX());
-    for (std::size_t x = 0; x < row.size(); ++x) {
-      sum += row[x];
-      if (inside.empty() || inside[centre + x] == 0) continue;
-      insideSum += row[x];
-      ++insideCount;
-    }
-    count += row.size();
-  }
-  const double all = ratio(sum, count);
-  return {all, inside.empty() ? all : ratio(insideSum, insideCount)};
+  SsimScan scan(truth.size());
+  scan.addRows(picture, truth, inside);
+  return scan.means();
+}
+
+std::uint64_t ssimScanBytes(Size size) {
+  return 2 * sizeof(float) * Size{size.width, kSsimWindow - 1}.pixels();
 }
 
 }  // namespace illum

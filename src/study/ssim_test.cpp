@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 #include <vector>
@@ -91,6 +92,31 @@ TEST(Ssim, AgreesWithTheSlowVersion) {
       EXPECT_NEAR(fast.inside, slow.inside, 2e-5);
       EXPECT_LT(slow.all, 0.99);
       EXPECT_GT(slow.all, 0.5);
+    }
+  }
+}
+
+BytePicture rowsOf(const BytePicture& picture, int top, int count) {
+  BytePicture rows({picture.width(), count}, picture.channels());
+  for (int y = 0; y < count; ++y)
+    std::copy_n(picture.row(top + y).begin(), picture.row(0).size(), rows.row(y).begin());
+  return rows;
+}
+
+TEST(Ssim, DoesNotDependOnHowTheRowsArrive) {
+  for (const Size size : {Size{30, 45}, Size{12, 11}, Size{14, 7}, Size{9, 1}}) {
+    const BytePicture a = noise(size, 3, 8), b = noise(size, 3, 9);
+    std::vector<std::uint8_t> inside(size.pixels());
+    for (std::size_t i = 0; i < inside.size(); ++i) inside[i] = i % 4 != 1;
+    const Ssim whole = structuralSimilarity(a, b, inside);
+    for (const int step : {1, 2, 8, 10, 11, 12, 44}) {
+      SsimScan scan(size);
+      for (int y = 0; y < size.height; y += step) {
+        const int count = std::min(step, size.height - y);
+        scan.addRows(rowsOf(a, y, count), rowsOf(b, y, count), inside);
+      }
+      EXPECT_EQ(scan.means().all, whole.all) << size.width << "x" << size.height << " by " << step;
+      EXPECT_EQ(scan.means().inside, whole.inside) << step;
     }
   }
 }

@@ -1,0 +1,104 @@
+#include "study/comparison.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <mutex>
+#include <vector>
+
+#include "illum/colour.h"
+#include "illum/error.h"
+#include "study/fake_capture_for_test.h"
+#include "study/object_for_test.h"
+
+namespace illum {
+namespace {
+
+constexpr Size kSize{150, 70};
+
+int pattern(int x, int y, int c) {
+  return (3 * x + 5 * y + 50 * c) % 256;
+}
+
+/// Across several tiles, with a mask.
+FlatObject maskedObject() {
+  FlatObject object{kSize, pattern, ringOfLights(2), {}};
+  object.coverageAt = [](int x, int y) { return (7 * x + y) % 256; };
+  return object;
+}
+
+FakeCapture photographs() {
+  return {kSize, Transfer::Display, ringOfLights(3),
+          [](int, int x, int y, int c) { return static_cast<float>(pattern(x, y, c)) / 255; }};
+}
+
+TEST(Comparison, ARelitRegionIsACutOfTheWhole) {
+  const TemporaryFolder folder("region");
+  const Relighter relighter(makeObject(folder.path() / "a.illum", maskedObject()));
+  const DirectionalLight light{Direction(), {0.5f, 1, 2}};
+  const Picture whole = relighter.relight({&light, 1});
+  ASSERT_EQ(whole.channels(), 4);
+  for (const Rectangle& region :
+       {Rectangle{0, 0, 150, 70}, Rectangle{0, 30, 150, 1}, Rectangle{63, 63, 2, 2},
+        Rectangle{64, 64, 1, 1}, Rectangle{149, 69, 1, 1}, Rectangle{10, 5, 100, 64}}) {
+    const Picture part = relighter.relightRegion({&light, 1}, region);
+    ASSERT_EQ(part.size(), region.size());
+    for (int y = 0; y < region.height; ++y)
+      for (int x = 0; x < region.width; ++x)
+        for (int c = 0; c < 4; ++c)
+          ASSERT_EQ(part.at(x, y, c), whole.at(region.x + x, region.y + y, c))
+              << region.x << "," << region.y << ": " << x << "," << y;
+  }
+}
+
+TEST(Comparison, ARegionBeyondThePictureIsRefused) {
+  const TemporaryFolder folder("beyond");
+  const Relighter relighter(makeObject(folder.path() / "a.illum", maskedObject()));
+  for (const Rectangle& region :
+       {Rectangle{0, 0, 151, 70}, Rectangle{0, 1, 150, 70}, Rectangle{-1, 0, 2, 2},
+        Rectangle{0, 0, 0, 5}, Rectangle{150, 0, 1, 1}, Rectangle{2147483647, 0, 1, 1}})
+    EXPECT_THROW(relighter.relightRegion({}, region), Error) << region.x << "," << region.width;
+}
+
+TEST(Comparison, BandsOfALightComeInOrderFromTheTop) {
+  const TemporaryFolder folder("order");
+  const Object object = makeObject(folder.path() / "a.illum", maskedObject());
+  FakeCapture capture = photographs();
+  capture.withBandRows(8);
+  const Comparison comparison(object, capture, 0);
+  const std::vector<int> lights{2, 0};
+  std::vector<int> next(2, 0);
+  std::mutex mutex;
+  int calls = 0;
+  Progress progress;
+  comparison.forEachBand(lights, 0, progress, [&](std::size_t i, const ComparedBand& band) {
+    const std::scoped_lock lock(mutex);
+    EXPECT_EQ(band.photograph.rows.y, next[i]) << i;
+    EXPECT_EQ(band.relit.size(), band.photograph.rows.size());
+    EXPECT_EQ(band.relit.channels(), 3);
+    next[i] = band.photograph.rows.bottom();
+    ++calls;
+  });
+  EXPECT_THAT(next, testing::ElementsAre(70, 70));
+  EXPECT_EQ(static_cast<std::uint64_t>(calls), 2 * comparison.bandCount());
+}
+
+TEST(Comparison, BothSidesAreOverBlack) {
+  const TemporaryFolder folder("black");
+  const Object object = makeObject(folder.path() / "a.illum", maskedObject());
+  const FakeCapture capture = photographs();
+  const Comparison comparison(object, capture, 0);
+  const std::vector<int> lights{0};
+  Progress progress;
+  comparison.forEachBand(lights, 0, progress, [&](std::size_t, const ComparedBand& band) {
+    for (const int x : {0, 9, 77, 149}) {
+      const float covered = static_cast<float>((7 * x + 33) % 256) / 255;
+      const float linear = linearFromDisplay(static_cast<float>(pattern(x, 33, 1)) / 255);
+      EXPECT_NEAR(band.relit.at(x, 33, 1), covered * linear, 1e-6) << x;
+      EXPECT_NEAR(band.photograph.linear.at(x, 33, 1), covered * linear, 1e-6) << x;
+    }
+  });
+}
+
+}  // namespace
+}  // namespace illum
