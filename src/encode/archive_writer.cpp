@@ -48,7 +48,7 @@ bool addFile(zip_t* archive, const std::filesystem::path& file, const std::strin
     return false;
   }
   const auto at = static_cast<zip_uint64_t>(index);
-  const bool deflated = mayBeDeflated(name);
+  const bool deflated = name == kManifestEntry;
   return zip_set_file_compression(archive, at, deflated ? ZIP_CM_DEFLATE : ZIP_CM_STORE,
                                   deflated ? kDeflateLevel : 0) == 0 &&
          zip_file_set_dostime(archive, at, kDosTime, kDosDate, 0) == 0 &&

@@ -8,7 +8,7 @@
 namespace illum {
 
 /// Writes `archive` anew from `folder`/NAME for every name, in the given order: no clock, no
-/// permissions, no paths but the names. object.json and basis.bin are deflated, all else is stored.
+/// permissions, no paths but the names. object.json is deflated, all else is stored.
 /// Flushed to the disk. Throws Error (Fault::Machine).
 void writeArchive(const std::filesystem::path& archive, const std::filesystem::path& folder,
                   std::span<const std::string> names);

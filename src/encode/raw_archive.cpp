@@ -73,7 +73,8 @@ std::vector<std::byte> rawArchive(std::span<const RawEntry> entries) {
     directory.put(0x02014b50, 4);
     directory.put(20, 2);  // made by
     putCommon(directory, entry, entry.name.size());
-    directory.put(0, 2 + 2 + 2 + 4);  // comment, disk, attributes
+    directory.put(0, 2 + 2 + 2);  // comment, disk, internal attributes
+    directory.put(0, 4);          // external attributes
     directory.put(out.size(), 4);
     directory.put(entry.name);
 

@@ -1,6 +1,7 @@
 #include "encode/sample_object.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "encode/encode_tile.h"
@@ -9,18 +10,37 @@
 namespace illum {
 namespace {
 
-constexpr int kCoefficients = 4;
+constexpr std::size_t kCoefficients = 4;
+constexpr std::size_t kFullPlanes = 5;
 
-/// The first four real spherical harmonics without their constants.
-BasisTable sampleTable() {
-  BasisTable table(LightDomain::Hemisphere, 9, kCoefficients);
+/// Four smooth functions: the first real spherical harmonics without their constants.
+std::array<double, kCoefficients> harmonics(Direction d) {
+  return {1, d.x(), d.y(), d.z()};
+}
+
+BasisTable separableTable(LightDomain domain) {
+  BasisTable table(domain, 9, kCoefficients);
   table.fill([](Direction d, std::span<double> out) {
-    out[0] = 1;
-    out[1] = d.x();
-    out[2] = d.y();
-    out[3] = d.z();
+    const auto values = harmonics(d);
+    std::copy(values.begin(), values.end(), out.begin());
   });
   return table;
+}
+
+/// Every plane has its own colour, and the mean is reddish.
+BasisTable fullTable(LightDomain domain) {
+  BasisTable table(domain, 10, 3 * kFullPlanes + 3);
+  table.fill([](Direction d, std::span<double> out) {
+    const auto values = harmonics(d);
+    for (std::size_t k = 0; k <= kFullPlanes; ++k)
+      for (std::size_t c = 0; c < 3; ++c)
+        out[3 * k + c] = values[k % kCoefficients] / static_cast<double>(1 + (k + c) % 3);
+  });
+  return table;
+}
+
+BasisTable sampleTable(const SampleOptions& options) {
+  return options.fullBasis ? fullTable(options.domain) : separableTable(options.domain);
 }
 
 std::vector<std::byte> bytesOf(const std::string& text) {
@@ -35,19 +55,28 @@ Manifest sampleManifest(const SampleOptions& options) {
   m.size = options.size;
   m.tile = options.tile;
   m.levels = std::max(options.size.width, options.size.height) > options.tile ? 2 : 1;
-  m.response = Response::Linear;
+  m.response = options.response;
+  m.domain = options.domain;
   m.coding.coding = options.coding;
   m.coding.bits = options.bits;
+  m.coding.curve = options.curve;
   m.coding.step = std::ldexp(1.0, -options.bits);
   m.coding.quality = options.quality;
-  for (int k = 0; k < 3 * kCoefficients; ++k) {
+  const int functions = static_cast<int>(options.fullBasis ? kFullPlanes : 3 * kCoefficients);
+  for (int k = 0; k < functions; ++k) {
     m.coding.offsets.push_back(k < 3 ? 0 : -0.5);
     m.coding.functions.push_back(k);
   }
   BasisEntry basis;
-  basis.name = "sh";
-  basis.coefficients = kCoefficients;
+  basis.name = options.fullBasis ? "learned" : "sh";
+  basis.coefficients = static_cast<int>(options.fullBasis ? kFullPlanes : kCoefficients);
   basis.tableBytes = 1;
+  if (options.fullBasis) {
+    basis.colour.kind = BasisColour::Kind::Full;
+    // One function more in two planes: the range of one is not enough for it.
+    m.coding.offsets.push_back(-0.25);
+    m.coding.functions.push_back(1);
+  }
   m.bases.push_back(basis);
   m.groups.push_back({"photograph", 0, 1, {}});
   m.mask = options.mask;
@@ -86,7 +115,7 @@ BytePicture sampleMask(const Manifest& manifest, int level, int x, int y) {
 
 Entries sampleEntries(const SampleOptions& options) {
   Manifest manifest = sampleManifest(options);
-  const auto table = sampleTable().encode();
+  const auto table = sampleTable(options).encode();
   manifest.bases.front().tableBytes = table.size();
   Entries entries;
   entries.emplace_back(kManifestEntry, bytesOf(textOf(manifest)));

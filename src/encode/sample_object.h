@@ -1,5 +1,5 @@
 // A tiny object for tests, fuzzers' seeds and the format's worked example: a wavy surface of two
-// levels under a separable basis of four smooth functions.
+// levels under a basis of four smooth functions.
 #pragma once
 
 #include <filesystem>
@@ -21,6 +21,10 @@ struct SampleOptions {
   int tile = 64;
   bool mask = true;
   bool poster = true;
+  Curve curve = Curve::Linear;
+  Response response = Response::Linear;
+  LightDomain domain = LightDomain::Hemisphere;
+  bool fullBasis = false;  ///< b_k and a mean in RGB, instead of one scalar for three planes
 };
 
 /// Without the places of its tables, which sampleEntries fills in.

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "illum/error.h"
 #include "object/entry_name.h"
@@ -74,16 +73,11 @@ void checkTileCount(const Manifest& m) {
                 std::to_string(tiles));
 }
 
-/// Rows and columns of a rotation are unit vectors at right angles, and it does not mirror.
-void checkRotation(const GroupEntry& group, std::size_t index) {
-  constexpr double kTolerance = 1e-6;
-  const auto& r = group.objectFromGroup.rotation;
-  const Vector3 x{r[0], r[3], r[6]}, y{r[1], r[4], r[7]}, z{r[2], r[5], r[8]};
-  const Vector3 error = cross(x, y) - z;
-  if (std::abs(length(x) - 1) > kTolerance || std::abs(length(y) - 1) > kTolerance ||
-      std::abs(dot(x, y)) > kTolerance || length(error) > kTolerance)
-    throw wrong(fmt::format("groups[{}].objectFromGroup.rotation", index), "a rotation",
-                "another matrix");
+/// A photograph's frame is the object's (docs/conventions.md, "Frames").
+void checkPose(const GroupEntry& group, std::size_t index) {
+  if (group.objectFromGroup != RigidTransform())
+    throw wrong(fmt::format("groups[{}].objectFromGroup", index),
+                "the identity, as for every photograph", "another transform");
 }
 
 void checkHeldOut(const Manifest& m) {
@@ -125,7 +119,7 @@ void checkConsistency(const Manifest& m) {
     if (m.groups[g].basis >= static_cast<int>(m.bases.size()))
       throw wrong(fmt::format("groups[{}].basis", g), fmt::format("less than {}", m.bases.size()),
                   std::to_string(m.groups[g].basis));
-    checkRotation(m.groups[g], g);
+    checkPose(m.groups[g], g);
   }
   checkLevels(m);
   checkTileCount(m);

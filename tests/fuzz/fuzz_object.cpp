@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "codec/tile.h"
 #include "encode/raw_archive.h"
 #include "illum/error.h"
 #include "illum/object.h"

@@ -1,0 +1,80 @@
+// format_sample FOLDER: writes small objects of several kinds, and expected.txt, what our own
+// relighter makes of them: lines of an object, a light, a pixel and its linear RGB. The worked
+// example of docs/format.md is held to it (check_reader.py).
+#include <cstdio>
+#include <exception>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include "encode/sample_object.h"
+#include "illum/relight.h"
+
+namespace illum {
+namespace {
+
+struct Sample {
+  std::string name;
+  SampleOptions options;
+};
+
+std::vector<Sample> samples() {
+  std::vector<Sample> all(6);
+  all[0].name = "plain";
+  all[1].name = "twelve_bits_display";
+  all[1].options.bits = 12;
+  all[1].options.response = Response::Display;
+  all[2].name = "sixteen_bits_square_root";
+  all[2].options.bits = 16;
+  all[2].options.curve = Curve::SignedSqrt;
+  all[3].name = "full_basis_cone";
+  all[3].options.fullBasis = true;
+  all[3].options.response = Response::Cone;
+  all[4].name = "sphere";
+  all[4].options.domain = LightDomain::Sphere;
+  all[5].name = "full_basis_sphere_without_mask";
+  all[5].options.fullBasis = true;
+  all[5].options.domain = LightDomain::Sphere;
+  all[5].options.mask = false;
+  return all;
+}
+
+void write(const std::filesystem::path& folder) {
+  const Vector3 lights[] = {{0, 0, 1}, {0.3, -0.2, 0.9}, {-0.7, 0.7, 0.05},
+                            {1, 0, 0}, {0.4, 0.8, -0.3}, {0, 0, -1}};
+  const int pixels[][2] = {{0, 0}, {99, 69}, {63, 64}, {40, 20}};
+  std::filesystem::create_directories(folder);
+  std::ofstream expected(folder / "expected.txt");
+  expected.precision(9);
+  for (const Sample& sample : samples()) {
+    const auto file = folder / (sample.name + ".illum");
+    writeSampleObject(file, ObjectForm::Archive, sample.options);
+    const Relighter relighter(Object::open(file));
+    for (const Vector3& light : lights) {
+      const DirectionalLight lamp{Direction::fromVector(light), {1, 1, 1}};
+      const Picture picture = relighter.relight({&lamp, 1});
+      for (const auto& [x, y] : pixels)
+        expected << sample.name << ' ' << light.x << ' ' << light.y << ' ' << light.z << ' ' << x
+                 << ' ' << y << ' ' << picture.at(x, y, 0) << ' ' << picture.at(x, y, 1) << ' '
+                 << picture.at(x, y, 2) << '\n';
+    }
+  }
+}
+
+}  // namespace
+}  // namespace illum
+
+int main(int argc, char** argv) {
+  if (argc != 2) {
+    std::fprintf(stderr, "usage: format_sample FOLDER\n");
+    return 2;
+  }
+  try {
+    illum::write(argv[1]);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "%s\n", error.what());
+    return 1;
+  }
+  return 0;
+}
