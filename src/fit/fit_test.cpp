@@ -82,7 +82,7 @@ TEST_P(EveryFit, RelightsUnderUnseenLights) {
   double error = 0;
   for (const Direction& d : test::randomLights(20, 0.3, 11))
     error += rmsDifference(relit(f, d), truth(d));
-  EXPECT_LT(error / 20, 0.03) << testing::PrintToString(f.fit.choices);
+  EXPECT_LT(error / 20, 0.04) << testing::PrintToString(f.fit.choices);
   EXPECT_THAT(f.fit.warnings, testing::IsEmpty());
   EXPECT_GT(f.fit.leaveOneOutDecibels, 30);
 }
@@ -112,8 +112,8 @@ TEST_P(EveryFit, PlanesAreUncorrelatedOverPixels) {
   Matrix planes = Eigen::Map<const Rows>(f.planes.data(), count, kPixels).cast<double>();
   planes.colwise() -= planes.rowwise().mean().eval();
   const Matrix covariance = planes * planes.transpose() / kPixels;
-  // Over coefficients, all colours together, where the basis is separable; jointly where it is learned.
-  // What is left comes from fitting once more with the rounded table.
+  // Over coefficients, all colours together, where the basis is separable; jointly where it is
+  // learned. What is left comes from fitting once more with the rounded table.
   const int stride = GetParam() == BasisFamily::Learned ? 1 : 3;
   double greatest = 0, variance = 0;
   for (int j = 0; j < count; j += stride) {

@@ -39,11 +39,11 @@ TEST_P(HeldOut, EveryFifthPhotographIsPredicted) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Stacks, HeldOut,
-                         testing::Values(Expectation{"realrti01_door/stack", 37.7},
-                                         Expectation{"realrti03_icon_michele/stack", 24.2},
-                                         Expectation{"realrti08_clay_shell/stack", 34.5},
-                                         Expectation{"realrti09_coin_a/stack", 25.5},
-                                         Expectation{"realrti11_metal_statue_a/stack", 32.4},
+                         testing::Values(Expectation{"realrti01_door/stack", 37.8},
+                                         Expectation{"realrti03_icon_michele/stack", 24.3},
+                                         Expectation{"realrti08_clay_shell/stack", 34.6},
+                                         Expectation{"realrti09_coin_a/stack", 25.6},
+                                         Expectation{"realrti11_metal_statue_a/stack", 32.7},
                                          Expectation{"diligent_cat/stack", 32.0},
                                          Expectation{"harvardps_scholar/stack", 18.5}));
 
@@ -60,7 +60,7 @@ TEST(HeldOut, LightsBetweenThoseOfARenderedDomeArePredicted) {
   figures.fit.planes.apply(dome->read(all), dome->pixels, planes);
   const double held = test::relitDecibels(figures.fit, planes, *between, judged);
   report(name, figures.fit, figures.used, held);
-  EXPECT_GE(held, 27.7);
+  EXPECT_GE(held, 27.8);
 }
 
 }  // namespace

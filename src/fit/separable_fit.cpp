@@ -25,9 +25,10 @@ constexpr std::array kUsualCoefficients{9, 16, 25};
 constexpr double kCoefficientToleranceDecibels = 0.05;
 // What a smaller number of coefficients may gain before the user is told.
 constexpr double kWarningDecibels = 0.5;
-// The table's share of the error of the fit, at unseen lights and at those fitted alike: 0.04 dB;
-// and -70 dB, the least that a table is asked for.
-constexpr double kTableShare = 0.01, kLeastTableError = 1e-7;
+// The table's share of the error of the fit, at unseen lights or at those fitted, whichever is
+// less, counted as if the planes were uncorrelated about zero. Their means make the columns' errors
+// add up: up to K times as much, 0.03 dB. Never less than -75 dB.
+constexpr double kTableShare = 3e-4, kLeastTableError = 3e-8;
 constexpr int kTableRings = 12;
 
 struct Trial {
@@ -115,7 +116,8 @@ BasisTable rotatedTable(const AnalyticBasis& basis, const PlaneRotation& rotatio
   request.planeRms = planeRms;
   request.budget = std::max(kTableShare * errorPerChannel, kLeastTableError);
   request.nodes.assign(lights.begin(), lights.end());
-  for (const WeightedDirection& node : capQuadrature(litCapOf(lights).thetaMaxRadians, kTableRings)) {
+  for (const WeightedDirection& node :
+       capQuadrature(litCapOf(lights).thetaMaxRadians, kTableRings)) {
     request.nodes.push_back(node.direction);
   }
   request.values = [&](ChartPoint p, std::span<double> out) {
