@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Puts pictures of one size side by side: contact_sheet.py OUT.png COLUMNS WIDTH PICTURE…
+"""Puts pictures of one size side by side: contact_sheet.py OUT COLUMNS WIDTH PICTURE…
 
 COLUMNS pictures a row, each scaled to WIDTH pixels.
 """
@@ -23,7 +23,7 @@ def main():
     for index, picture in enumerate(pictures):
         corner = (index % columns * (width + GAP), index // columns * (height + GAP))
         sheet.paste(picture.resize((width, height), Image.LANCZOS), corner)
-    sheet.save(out, optimize=True)
+    sheet.save(out, quality=90, optimize=True)
 
 
 if __name__ == "__main__":

@@ -41,7 +41,7 @@ for k in range(12):
 PYTHON
 run "$illum" relight "$out/medal.illum" --lights "$out/round.lp" -o "$out/round"
 scripts/contact_sheet.py "$out/round.png" 6 256 "$out"/round/*.png
-scripts/contact_sheet.py "$out/medal.png" 3 300 \
+scripts/contact_sheet.py "$out/medal.jpg" 3 300 \
   "$out/photographs/photo_05.jpg" "$out/raking.png" "$out/two_lights.png"
 
 say "Judging it against the photographs"
@@ -54,6 +54,6 @@ $out/medal.illum     the relightable object ($(stat -c %s "$out/medal.illum") by
 $out/raking.png      one light, low from the left
 $out/two_lights.png  a warm light from the left, a cool one from the right
 $out/round.png       a light that starts at the top and goes round clockwise
-$out/medal.png       a photograph, the raking light and the two lights, side by side
+$out/medal.jpg       a photograph, the raking light and the two lights, side by side
 $out/report.html     how close it comes, light by light
 EOF

@@ -80,7 +80,7 @@ class Medal:
         waves = np.cos(90 * r + 3 * np.cos(16 * a)) + np.cos(32 * a + 40 * r)
         guilloche = 0.0022 * waves * ground
         hammered = 0.0012 * smooth_noise(self.side, 90, 7) * (r < 0.885)
-        nap = (0.007 * smooth_noise(self.side, self.side // 4, 11)
+        nap = (0.0022 * smooth_noise(self.side, self.side // 4, 11)
                + 0.012 * smooth_noise(self.side, 12, 12)) * (r > 0.885)
         height = body + rim + border + relief + rays + centre + guilloche + hammered + nap
         return height.astype(np.float32), ground
@@ -145,7 +145,7 @@ def material_of(medal):
     bronze = np.array([0.30, 0.17, 0.075]) * tone * (0.35 + 0.65 * worn)
     enamel = np.array([0.010, 0.055, 0.24]) * (1 + 0.5 * np.cos(6 * medal.radius)[..., None])
     fibres = smooth_noise(medal.side, medal.side // 3, 9)[..., None]
-    felt = np.array([0.085, 0.012, 0.020]) * (1 + 0.35 * fibres)
+    felt = np.array([0.085, 0.012, 0.020]) * (1 + 0.25 * fibres)
     is_enamel, is_felt = medal.enamel[..., None], medal.felt[..., None]
     diffuse = np.where(is_felt, felt, np.where(is_enamel, enamel, bronze))
     metal = np.array([0.95, 0.64, 0.36]) * (0.45 + 0.55 * worn)

@@ -1,4 +1,7 @@
-"""The manual: every ```sh block of a page is run, in order, beside a folder of photographs."""
+"""The manual's examples are run, in order, beside photographs/ and an object medal.illum.
+
+An example is a ```sh block, or an indented line that begins with `illum`.
+"""
 
 import os
 import re
@@ -13,11 +16,16 @@ PAGES = sorted([*ROOT.glob("docs/guide/*.md"), ROOT / "README.md"])
 
 
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
-def test_examples(stack, tmp_path, page):
-    blocks = re.findall(r"^```sh\n(.*?)^```$", page.read_text(), re.MULTILINE | re.DOTALL)
+def test_examples(stack, built, tmp_path, page):
+    found = re.findall(r"^```sh\n(.*?)^```$|^    (illum [^|\n]+)", page.read_text(),
+                       re.MULTILINE | re.DOTALL)
+    blocks = [block or line for block, line in found]
     assert blocks, "a page without an example"
     shutil.copytree(stack, tmp_path / "photographs")
-    environment = {**os.environ, "PATH": f"{BINARY.parent}:{os.environ['PATH']}"}
+    shutil.copy(built, tmp_path / "medal.illum")
+    (tmp_path / "bin").mkdir()
+    (tmp_path / "bin" / "illum").symlink_to(BINARY)
+    environment = {**os.environ, "PATH": f"{tmp_path / 'bin'}:/usr/bin:{os.environ['PATH']}"}
     for block in blocks:
         run = subprocess.run(["bash", "-euo", "pipefail", "-c", block], cwd=tmp_path,
                              env=environment, capture_output=True, text=True, timeout=300)

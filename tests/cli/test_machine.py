@@ -65,12 +65,10 @@ def test_a_full_disk_is_enlarged_and_the_build_resumed(illum, tmp_path):
 
 @pytest.mark.parametrize("suffix", ["png", "jpg", "exr"])
 def test_disk_full_while_relighting(illum, built, tmp_path, suffix):
-    with small_disk(tmp_path / "disk", 4) as disk:
+    with small_disk(tmp_path / "disk", 8) as disk:
         out = disk / f"o.{suffix}"
-        if suffix != "exr":
-            (disk / "filler").write_bytes(bytes(2 * 4096))
         with contextlib.suppress(OSError):
-            (disk / "more").write_bytes(bytes(4096))
+            (disk / "filler").write_bytes(bytes(4 * 4096))
         before = listing(disk)
         illum.refuses("relight", built, "--light", "0,0,1", "-o", out, code=3)
         assert listing(disk) == before
