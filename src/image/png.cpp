@@ -182,8 +182,8 @@ class PngWriter {
   }
 
  private:
-  /// On photographs 2.5 times as fast as zlib's default of 6, and within 6 % of its size either way;
-  /// level 9 is 8 to 20 times as slow for 3 to 12 % less.
+  /// On photographs 2.5 times as fast as zlib's default of 6, and within 8 % of its size either
+  /// way; level 9 is 8 to 20 times as slow for 3 to 12 % less.
   static constexpr int kCompressionLevel = 3;
 
   static int colourType(int channels) {
