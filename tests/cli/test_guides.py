@@ -52,3 +52,13 @@ def test_every_option_is_in_the_manual(binary):
         text = subprocess.run([binary, command, "--help"], capture_output=True, text=True).stdout
         for option in set(re.findall(r"--[a-z][a-z-]+", text)) - {"--help", "--output"}:
             assert option in manual, f"illum {command} {option}"
+
+
+def test_the_architecture_names_files_that_are_there():
+    text = (ROOT / "docs/architecture.md").read_text()
+    modules = {folder.name for folder in (ROOT / "src").iterdir() if folder.is_dir()}
+    named = [name for name in re.findall(r"`([a-z_]+/[a-z_]+)`", text)
+             if name.split("/")[0] in modules]
+    assert len(named) > 20
+    for name in named:
+        assert list((ROOT / "src").glob(f"{name}*")), name
