@@ -2,6 +2,7 @@
 // input is at fault, 2 wrong usage, 3 a fault of the machine, 130 stopped by Ctrl-C.
 #include <fmt/format.h>
 
+#include <csignal>
 #include <cstdio>
 #include <exception>
 #include <filesystem>
@@ -43,6 +44,8 @@ int run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   const int machine = static_cast<int>(illum::Fault::Machine);
+  // A file over the limit of its size is then an error of write(), with a sentence, not a kill.
+  std::signal(SIGXFSZ, SIG_IGN);
   try {
     return run(argc, argv);
   } catch (const illum::Error& error) {
