@@ -1,6 +1,6 @@
 // Hemispherical harmonics: P. Gautron, J. Krivanek, S. Pattanaik, K. Bouatouch, "A Novel
 // Hemispherical Basis for Accurate and Efficient Rendering", Eurographics Symposium on Rendering
-// 2004, equation 4.
+// 2004.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
