@@ -42,7 +42,8 @@ void makeOrthonormal(PrincipalPlanes& planes, const Kriging& kriging,
 
 std::vector<Direction> tableNodes(std::span<const Direction> lights) {
   std::vector<Direction> nodes(lights.begin(), lights.end());
-  for (const WeightedDirection& node : capQuadrature(litCapOf(lights).thetaMaxRadians, kTableRings)) {
+  for (const WeightedDirection& node :
+       capQuadrature(litCapOf(lights).thetaMaxRadians, kTableRings)) {
     nodes.push_back(node.direction);
   }
   return nodes;
@@ -62,10 +63,9 @@ BasisTable tableOf(const PrincipalPlanes& planes, const Kriging& kriging, const 
   TableRequest request;
   request.domain = litCapOf(lights).domain();
   request.columns = static_cast<int>(columns.cols());
-  request.planeRms = Vector::Ones(columns.cols());
-  for (int k = 0; k < count; ++k) {
-    request.planeRms.segment(3 * k, 3).setConstant(std::sqrt(std::max(planes.variances[k], 0.0)));
-  }
+  Vector squares = Vector::Ones(columns.cols());  // planes are uncorrelated, of mean 0
+  for (int k = 0; k < count; ++k) squares.segment(3 * k, 3).setConstant(planes.variances[k]);
+  request.planeMoments = squares.asDiagonal();
   request.budget = 3 * kTableShare * errorPerChannel;
   request.nodes = tableNodes(lights);
   request.values = [&](ChartPoint p, std::span<double> out) {

@@ -26,9 +26,9 @@ constexpr double kCoefficientToleranceDecibels = 0.05;
 // What a smaller number of coefficients may gain before the user is told.
 constexpr double kWarningDecibels = 0.5;
 // The table's share of the error of the fit, at unseen lights or at those fitted, whichever is
-// less, counted as if the planes were uncorrelated about zero. Their means make the columns' errors
-// add up: up to K times as much, 0.03 dB. Never less than -75 dB.
-constexpr double kTableShare = 3e-4, kLeastTableError = 3e-8;
+// less. An error of this share that goes along with the fit's own changes it by up to 2
+// sqrt(share), 0.09 dB. Never less than -90 dB.
+constexpr double kTableShare = 1e-4, kLeastTableError = 1e-9;
 constexpr int kTableRings = 12;
 
 struct Trial {
@@ -107,13 +107,13 @@ PlaneRotation functionRotation(const AnalyticBasis& basis, std::span<const Direc
 }
 
 BasisTable rotatedTable(const AnalyticBasis& basis, const PlaneRotation& rotation,
-                        const Vector& planeRms, std::span<const Direction> lights,
+                        const Matrix& planeMoments, std::span<const Direction> lights,
                         double errorPerChannel) {
   TableRequest request;
   request.domain = basis.domain();
   request.columns = basis.coefficients();
   request.smoothAcrossEquator = basis.smoothAcrossEquator();
-  request.planeRms = planeRms;
+  request.planeMoments = planeMoments;
   request.budget = std::max(kTableShare * errorPerChannel, kLeastTableError);
   request.nodes.assign(lights.begin(), lights.end());
   for (const WeightedDirection& node :
@@ -173,11 +173,10 @@ Fit fitSeparable(std::span<const Direction> lights, const SampleStatistics& stat
 
   const PlaneRotation rotation = functionRotation(basis, lights, moments, analytic);
   const Matrix rotated = rotation.planesFromOld * analytic;
-  const Vector planeRms =
-      (rotated * gram * rotated.transpose()).diagonal().cwiseMax(0.0).cwiseSqrt();
+  const Matrix planeMoments = rotated * gram * rotated.transpose();
   const double error = std::pow(
       10.0, -std::max(chosen.decibels, meanDecibels(usedErrors(values * analytic, gram))) / 10);
-  BasisTable table = rotatedTable(basis, rotation, planeRms, lights, error);
+  BasisTable table = rotatedTable(basis, rotation, planeMoments, lights, error);
 
   const Eigen::Matrix3d colour = colourRotation(moments, rotated);
   fit.basisName = std::string(basis.name());

@@ -24,30 +24,29 @@ Matrix exactValues(const TableRequest& request) {
 
 double pictureError(const BasisTable& table, const TableRequest& request, const Matrix& exact) {
   std::vector<float> row(static_cast<std::size_t>(request.columns));
-  double sum = 0;
+  Matrix errors = -exact;
   for (std::size_t i = 0; i < request.nodes.size(); ++i) {
     table.evaluate(request.nodes[i], row);
-    for (int c = 0; c < request.columns; ++c) {
-      const double error = (row[c] - exact(i, c)) * request.planeRms[c];
-      sum += error * error;
-    }
+    for (int c = 0; c < request.columns; ++c) errors(i, c) += row[c];
   }
-  return sum / static_cast<double>(request.nodes.size());
+  const Matrix product = errors * request.planeMoments;
+  return product.cwiseProduct(errors).sum() / static_cast<double>(errors.rows());
 }
 
 // Equal shares of half the budget; a column that nothing is multiplied with may be anything.
 std::vector<double> storedErrors(const TableRequest& request) {
   const double share = std::sqrt(0.5 * request.budget / request.columns);
-  const double least = std::max(1e-6 * request.planeRms.maxCoeff(), 1e-12);
+  const Vector planeRms = request.planeMoments.diagonal().cwiseMax(0.0).cwiseSqrt();
+  const double least = std::max(1e-6 * planeRms.maxCoeff(), 1e-12);
   std::vector<double> errors;
-  for (const double rms : request.planeRms) errors.push_back(share / std::max(rms, least));
+  for (const double rms : planeRms) errors.push_back(share / std::max(rms, least));
   return errors;
 }
 
 }  // namespace
 
 BasisTable chooseTable(const TableRequest& request) {
-  assert(request.planeRms.size() == request.columns && request.budget > 0);
+  assert(request.planeMoments.rows() == request.columns && request.budget > 0);
   const Matrix exact = exactValues(request);
   BasisTable table;
   for (const int resolution : kResolutions) {

@@ -18,9 +18,10 @@ struct TableRequest {
   std::function<void(ChartPoint, std::span<double>)> values;
   /// As AnalyticBasis says; if not, the guard ring is fitted.
   bool smoothAcrossEquator = true;
-  /// Per column, the rms over pixels of what the column is multiplied with (1 for a mean).
-  Vector planeRms;
-  /// Greatest mean square error of the picture (summed over columns, averaged over `nodes`).
+  /// columns x columns: second moments over pixels of what the columns are multiplied with (1 for a
+  /// mean), 0 between columns that do not meet in one channel.
+  Matrix planeMoments;
+  /// Greatest mean square error of the picture (summed over channels, averaged over `nodes`).
   double budget = 0;
   std::vector<Direction> nodes;
 };

@@ -16,7 +16,7 @@ TableRequest waves(double frequency, double budget) {
   request.values = [frequency](ChartPoint p, std::span<double> out) {
     out[0] = std::cos(frequency * directionFromChart(p).x());
   };
-  request.planeRms = Vector::Constant(1, 0.5);
+  request.planeMoments = Matrix::Constant(1, 1, 0.25);
   request.budget = budget;
   request.nodes = test::randomLights(300, 0);
   return request;
