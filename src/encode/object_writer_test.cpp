@@ -114,6 +114,23 @@ TEST_P(BothForms, LosslessTilesComeBackExactlyAtEveryDepth) {
   }
 }
 
+TEST_P(BothForms, ManyThreadsReadOneObject) {
+  const TemporaryFolder folder;
+  writeSampleObject(folder / "a", GetParam(), {});
+  const Object object = Object::open(folder / "a");
+  std::vector<int> right(4);
+  std::vector<std::thread> threads;
+  for (int& count : right)
+    threads.emplace_back([&object, &count] {
+      for (int i = 0; i < 40; ++i) {
+        const int x = i % 2, y = i / 2 % 2;
+        count += object.planeTile(0, 0, x, y) == sampleCodes(object.manifest(), 0, x, y);
+      }
+    });
+  for (auto& thread : threads) thread.join();
+  EXPECT_THAT(right, testing::Each(40));
+}
+
 TEST_P(BothForms, TheSameEntriesInAnyOrderGiveTheSameBytes) {
   const TemporaryFolder folder;
   auto entries = sampleEntries({});
