@@ -14,21 +14,22 @@
 namespace illum {
 
 struct BuildOptions {
-  std::string basis = "learned";          ///< "learned", "sh", "hsh", "dct"
-  int coefficients = 0;                   ///< per channel; 0: chosen
-  int planes = 0;                         ///< scalar planes; 0: chosen
-  std::string coding = "avif";            ///< "avif", "jpeg", "png"
-  int quality = -1;                       ///< 0-100; -1: the default
-  int speed = -1;                         ///< of the AVIF encoder, 0-10; -1: the default
-  std::optional<int> bits;                ///< 8, 10, 12, 16; unset: chosen
-  std::optional<std::string> curve;       ///< "linear", "signedSqrt"; unset: chosen
-  std::optional<std::string> response;    ///< "linear", "display"; unset: as the capture is
-  int holdout = 0;                        ///< K: leave lights K-1, 2K-1, … out; 0: none
+  std::string basis = "learned";        ///< "learned", "sh", "hsh", "dct"
+  int coefficients = 0;                 ///< per channel; 0: chosen
+  int planes = 0;                       ///< scalar planes; 0: chosen
+  std::string coding = "avif";          ///< "avif", "jpeg", "png"
+  int quality = -1;                     ///< 0-100; -1: the default
+  int speed = -1;                       ///< of the AVIF encoder, 0-10; -1: the default
+  std::optional<int> bits;              ///< 8, 10, 12, 16; unset: chosen
+  std::optional<std::string> curve;     ///< "linear", "signedSqrt"; unset: chosen
+  std::optional<std::string> response;  ///< "linear", "display"; unset: as the capture is
+  int holdout = 0;                      ///< K: leave lights K-1, 2K-1, … out; 0: none
   std::optional<bool> solidAngleWeights, extension;
   std::optional<double> regularizer;
   bool projection = false;
-  int tile = 512;                         ///< side of a tile, multiple of 8
-  std::uint64_t memoryBytes = 0;          ///< 0: a quarter of the machine
+  std::optional<int>
+      tile;  ///< side of a tile, multiple of 8; unset: 512, or less where the planes need it
+  std::uint64_t memoryBytes = 0;  ///< 0: a quarter of the machine
   bool resume = false, force = false;
   /// Asked whenever progress is made; true stops the build with what is done kept for `resume`.
   std::function<bool()> stop;
@@ -43,8 +44,8 @@ struct BuildReport {
   bool stopped = false;
 };
 
-/// `out`: OUT.illum, or a folder form where it ends in '/' . Throws Error; on an input fault nothing
-/// is left behind, after a stop or a machine fault OUT.partial/ is kept for `resume`.
+/// `out`: OUT.illum, or a folder form where it ends in '/' . Throws Error; on an input fault
+/// nothing is left behind, after a stop or a machine fault OUT.partial/ is kept for `resume`.
 BuildReport buildObject(const Capture& capture, const std::filesystem::path& out,
                         const BuildOptions& options, Progress& progress);
 

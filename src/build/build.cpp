@@ -23,6 +23,7 @@ namespace {
 // Chosen from the curves in docs/quality.md and docs/performance.md.
 constexpr int kDefaultQuality = 80;
 constexpr int kDefaultSpeed = 6;
+constexpr int kDefaultTile = 512;
 constexpr int kPosterQuality = 80;
 
 Response responseFor(const BuildOptions& options, Transfer transfer) {
@@ -63,10 +64,10 @@ void checkOptions(const BuildOptions& options) {
     throw Error(Fault::Usage,
                 fmt::format("--holdout: expected at least 1, found {}", options.holdout));
   }
-  if (options.tile < 64 || options.tile > 1360 || options.tile % 8 != 0) {
+  if (options.tile && (*options.tile < 64 || *options.tile > 1360 || *options.tile % 8 != 0)) {
     throw Error(
         Fault::Usage,
-        fmt::format("--tile: expected a multiple of 8 from 64 to 1360, found {}", options.tile));
+        fmt::format("--tile: expected a multiple of 8 from 64 to 1360, found {}", *options.tile));
   }
   if (options.quality < -1 || options.quality > 100) {
     throw Error(Fault::Usage,
@@ -94,8 +95,18 @@ std::string fingerprintOf(const Capture& capture, const BuildOptions& o) {
       kVersion, o.basis, o.coefficients, o.planes, o.coding, o.quality, o.speed, o.bits.value_or(0),
       o.curve.value_or("chosen"), o.response.value_or("chosen"), o.holdout,
       flag(o.solidAngleWeights), flag(o.extension),
-      o.regularizer ? fmt::format("{}", *o.regularizer) : "chosen", o.projection, o.tile,
-      capture.fingerprint());
+      o.regularizer ? fmt::format("{}", *o.regularizer) : "chosen", o.projection,
+      o.tile.value_or(0), capture.fingerprint());
+}
+
+// The side of a tile: what was asked for, or the largest whose planes fit one atlas.
+int tileFor(const BuildOptions& options, const CodingEntry& coding) {
+  if (options.tile) return *options.tile;
+  const auto cells = (static_cast<int>(coding.functions.size()) + 2) / 3 *
+                     (splitsBytes(coding.coding, coding.bits) ? 2 : 1);
+  int tile = kDefaultTile;
+  while (tile > 64 && (kMaxAtlasSide / tile) * (kMaxAtlasSide / tile) < cells) tile /= 2;
+  return tile;
 }
 
 int levelsFor(Size size, int tile) {
@@ -109,10 +120,12 @@ LightDomain domainOf(const Fit& fit) {
 }
 
 Manifest manifestFor(const Capture& capture, const LightChoice& lights, const BuildOptions& options,
-                     Response response, const Fit& fit) {
+                     Response response, const Plan& plan) {
+  const Fit& fit = plan.fit;
   Manifest manifest;
   manifest.size = capture.size();
-  manifest.tile = options.tile;
+  manifest.coding = plan.quantiser.entry;
+  manifest.tile = tileFor(options, manifest.coding);
   manifest.levels = levelsFor(manifest.size, manifest.tile);
   manifest.domain = domainOf(fit);
   manifest.response = response;
@@ -219,8 +232,7 @@ BuildReport buildObject(const Capture& source, const std::filesystem::path& out,
     EncodeSettings settings;
     settings.quality = options.quality >= 0 ? options.quality : kDefaultQuality;
     settings.speed = options.speed >= 0 ? options.speed : kDefaultSpeed;
-    Manifest manifest = manifestFor(capture, lights, options, response, plan.fit);
-    manifest.coding = plan.quantiser.entry;
+    Manifest manifest = manifestFor(capture, lights, options, response, plan);
     manifest.coding.quality = settings.quality;
     describe(plan, settings, manifest, report);
 

@@ -31,7 +31,7 @@ struct BuildCommand {
   MachineOptions machine;
   BuildOptions build;
   std::string output, curve, response;
-  int bits = 0;
+  int bits = 0, tile = 0;
   double regularizer = 0;
   bool json = false, weights = false, extension = false;
 
@@ -82,11 +82,12 @@ struct BuildCommand {
     command.add_option("--curve", curve, "linear or signedSqrt (default: chosen)")->group(group);
     command.add_option("--speed", build.speed, "of the AVIF coder, 0 (smallest) to 10")
         ->group(group);
-    command.add_option("--tile", build.tile, "side of a tile in pixels")->group(group);
+    command.add_option("--tile", tile, "side of a tile in pixels")->group(group);
   }
 
   void finishOptions(const CLI::App& command) {
     if (command.count("--bits") > 0) build.bits = bits;
+    if (command.count("--tile") > 0) build.tile = tile;
     if (command.count("--regularizer") > 0) build.regularizer = regularizer;
     if (command.count("--weights") > 0) build.solidAngleWeights = weights;
     if (command.count("--extension") > 0) build.extension = extension;
