@@ -1,4 +1,4 @@
-// Photographs of every other format, by OpenImageIO: the only file that includes it.
+// Photographs of every other format, by OpenImageIO.
 #pragma once
 
 #include "capture/photo_reader.h"

@@ -308,7 +308,7 @@ TEST(Photograph, DecodersHoldNoMoreThanTheySay) {
       {"a.webp", Byte, {}},
   };
   for (const Kind& kind : kinds) {
-    test::Sketch sketch = test::sketch(1, {1500, 600}, 3, kind.type);
+    test::Sketch sketch = test::sketch(1, {700, 300}, 3, kind.type);
     sketch.attributes = kind.attributes;
     test::write(folder / kind.name, sketch);
     FilePool pool;

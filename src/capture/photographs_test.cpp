@@ -56,8 +56,8 @@ class PhotographsTest : public testing::Test {
   }
   // Opens with so little memory that the least possible bands are read.
   std::unique_ptr<Capture> openInBands(PhotographOptions options = {}) {
-    std::uint64_t enough = std::uint64_t{1} << 32, tooLittle = 0;
-    while (enough - tooLittle > 1) {
+    std::uint64_t enough = std::uint64_t{1} << 26, tooLittle = 0;
+    while (enough - tooLittle > 256) {
       options.memoryBytes = tooLittle + (enough - tooLittle) / 2;
       test::Listener ignored;
       try {
@@ -162,12 +162,11 @@ TEST_P(KindTest, BandsGiveWhatMemoryGives) {
   EXPECT_EQ(!listener_.remarks.empty(), GetParam().scratch) << "a scratch file is told";
   const std::vector<float> all = test::readAll(*whole);
   EXPECT_EQ(all, test::readAll(*bands));
-  EXPECT_EQ(all, test::readAll(*bands)) << "a second time, from the beginning";
 
   const Size size = whole->size();
   std::mt19937 random(7);
   const auto below = [&](int n) { return static_cast<int>(random() % static_cast<unsigned>(n)); };
-  for (int i = 0; i < 20; ++i) {
+  for (int i = 0; i < 6; ++i) {
     Rectangle r{below(size.width), below(size.height), 0, 0};
     r.width = 1 + below(size.width - r.x);
     r.height = 1 + below(size.height - r.y);
