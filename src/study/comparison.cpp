@@ -26,25 +26,24 @@ void checkComparable(const Object& object, const Capture& truth) {
   if (truth.lights().empty()) throw inputError(object.path(), "photographs to judge it by", "none");
 }
 
-/// The object's decoded tiles get half of what there is, and no more than they need.
+/// For the object's decoded tiles: all of them if they take no more than half of the memory, else
+/// one row of them, which serves all lights of a step.
 std::uint64_t tileBytesOf(const Object& object, std::uint64_t memoryBytes) {
-  const auto planes = static_cast<std::uint64_t>(object.planes());
-  return std::min(memoryBytes / 2, object.size().pixels() * planes * sizeof(std::uint16_t));
-}
-
-Rectangle band(const Capture& truth, int y, int rows) {
-  return {0, y, truth.size().width, std::min(rows, truth.size().height - y)};
+  const Size size = object.size();
+  const std::uint64_t bytesPerPixel =
+      static_cast<std::uint64_t>(object.planes()) * sizeof(std::uint16_t);
+  const std::uint64_t all = bytesPerPixel * size.pixels();
+  return all <= memoryBytes / 2 ? all
+                                : bytesPerPixel * Size{size.width, object.manifest().tile}.pixels();
 }
 
 /// The alpha of any relit picture is the object's mask.
-BytePicture coverageOf(const Relighter& relighter, const Capture& truth) {
-  const Size size = truth.size();
+BytePicture coverageOf(const Relighter& relighter, const std::vector<Rectangle>& steps, Size size) {
   BytePicture coverage(size, 1);
-  const int step = bandRowsOf(truth);
-  for (int y = 0; y < size.height; y += step) {
-    const Picture relit = relighter.relightRegion({}, band(truth, y, step));
-    const auto out = coverage.samples().subspan(Size{size.width, y}.pixels());
-    for (std::size_t pixel = 0; pixel < relit.size().pixels(); ++pixel)
+  for (const Rectangle& rows : steps) {
+    const Picture relit = relighter.relightRegion({}, rows);
+    const auto out = coverage.samples().subspan(Size{size.width, rows.y}.pixels());
+    for (std::size_t pixel = 0; pixel < rows.pixels(); ++pixel)
       out[pixel] = byteFromUnit(relit.samples()[4 * pixel + 3]);
   }
   return coverage;
@@ -63,17 +62,14 @@ Picture withoutAlpha(const Picture& relit) {
 Comparison::Comparison(const Object& object, const Capture& truth, std::uint64_t memoryBytes)
     : object_(object),
       truth_(truth),
+      steps_(stepsDown(truth, object.manifest().tile)),
       memoryBytes_(memoryBytes > 0 ? memoryBytes : machineMemoryBytes() / 4),
       tileBytes_(tileBytesOf(object, memoryBytes_)),
       relighter_(object, tileBytes_) {
   checkComparable(object, truth);
   coverage_ = illum::coverageOf(truth);
-  if (coverage_.empty() && object.manifest().mask) coverage_ = coverageOf(relighter_, truth);
-}
-
-std::uint64_t Comparison::bandCount() const {
-  const int rows = bandRowsOf(truth_);
-  return static_cast<std::uint64_t>((truth_.size().height + rows - 1) / rows);
+  if (coverage_.empty() && object.manifest().mask)
+    coverage_ = coverageOf(relighter_, steps_, truth.size());
 }
 
 ComparedBand Comparison::compared(int light, const Rectangle& rows) const {
@@ -88,21 +84,19 @@ ComparedBand Comparison::compared(int light, const Rectangle& rows) const {
 int Comparison::lightsAtOnce(std::uint64_t keptBytes) const {
   // Relit with and without alpha, samples and linear photograph in floats; two pictures in bytes.
   constexpr std::uint64_t kBytesPerPixel = (4 + 3 + 3 + 3) * sizeof(float) + 2 * 3;
-  const Size size{truth_.size().width, bandRowsOf(truth_)};
+  std::uint64_t largest = 1;
+  for (const Rectangle& rows : steps_) largest = std::max<std::uint64_t>(largest, rows.pixels());
   const std::uint64_t held = truth_.residentBytes() + tileBytes_ + keptBytes;
   const std::uint64_t free = memoryBytes_ > held ? memoryBytes_ - held : 0;
   const auto threads = static_cast<std::uint64_t>(tbb::this_task_arena::max_concurrency());
-  return static_cast<int>(
-      std::clamp<std::uint64_t>(free / (size.pixels() * kBytesPerPixel), 1, threads));
+  return static_cast<int>(std::clamp<std::uint64_t>(free / (largest * kBytesPerPixel), 1, threads));
 }
 
 void Comparison::forEachBand(
     std::span<const int> lights, std::uint64_t keptBytes, Progress& progress,
     const std::function<void(std::size_t i, const ComparedBand& band)>& use) const {
-  const int step = bandRowsOf(truth_);
   tbb::task_arena arena(lightsAtOnce(keptBytes));
-  for (int y = 0; y < truth_.size().height; y += step) {
-    const Rectangle rows = band(truth_, y, step);
+  for (const Rectangle& rows : steps_) {
     const auto underLight = [&](std::size_t i) {
       // Isolated: a thread that waits inside must not begin another light and hold two.
       tbb::this_task_arena::isolate([&] { use(i, compared(lights[i], rows)); });

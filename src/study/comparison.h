@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <span>
+#include <vector>
 
 #include "illum/capture.h"
 #include "illum/object.h"
@@ -39,7 +40,7 @@ class Comparison {
   /// lights.size() in all. `keptBytes`: what the caller keeps meanwhile.
   void forEachBand(std::span<const int> lights, std::uint64_t keptBytes, Progress& progress,
                    const std::function<void(std::size_t i, const ComparedBand& band)>& use) const;
-  std::uint64_t bandCount() const;
+  std::uint64_t stepCount() const { return steps_.size(); }
 
  private:
   ComparedBand compared(int light, const Rectangle& rows) const;
@@ -47,6 +48,7 @@ class Comparison {
 
   const Object& object_;
   const Capture& truth_;
+  std::vector<Rectangle> steps_;
   std::uint64_t memoryBytes_, tileBytes_;
   Relighter relighter_;
   BytePicture coverage_;

@@ -80,7 +80,7 @@ TEST(Comparison, BandsOfALightComeInOrderFromTheTop) {
     ++calls;
   });
   EXPECT_THAT(next, testing::ElementsAre(70, 70));
-  EXPECT_EQ(static_cast<std::uint64_t>(calls), 2 * comparison.bandCount());
+  EXPECT_EQ(static_cast<std::uint64_t>(calls), 2 * comparison.stepCount());
 }
 
 TEST(Comparison, BothSidesAreOverBlack) {
@@ -91,6 +91,7 @@ TEST(Comparison, BothSidesAreOverBlack) {
   const std::vector<int> lights{0};
   Progress progress;
   comparison.forEachBand(lights, 0, progress, [&](std::size_t, const ComparedBand& band) {
+    if (band.photograph.rows.y > 0) return;  // the second row of tiles
     for (const int x : {0, 9, 77, 149}) {
       const float covered = static_cast<float>((7 * x + 33) % 256) / 255;
       const float linear = linearFromDisplay(static_cast<float>(pattern(x, 33, 1)) / 255);

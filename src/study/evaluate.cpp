@@ -99,7 +99,7 @@ std::vector<LightResult> judgeAll(const Comparison& comparison, const Manifest& 
   std::vector<LightJudge> judges(lights.size(), LightJudge(size, inside));
 
   progress.begin("judging " + std::to_string(lights.size()) + " lights",
-                 comparison.bandCount() * lights.size());
+                 comparison.stepCount() * lights.size());
   comparison.forEachBand(indices, inside.size() + lights.size() * ssimScanBytes(size), progress,
                          [&](std::size_t i, const ComparedBand& band) { judges[i].add(band); });
   progress.end();

@@ -10,8 +10,8 @@
 namespace illum {
 namespace {
 
-/// Where the capture has no preference: pixels enough to make a step worthwhile.
-constexpr int kFreeBandPixels = 1 << 20;
+/// Enough to make a step worthwhile; with all that is made of them, about 30 MB.
+constexpr int kStepPixels = 1 << 19;
 
 /// One sample as it was photographed: linear, and as a byte.
 struct Shown {
@@ -52,10 +52,16 @@ void showChannel(std::span<const float> samples, std::span<const std::uint8_t> c
 
 }  // namespace
 
-int bandRowsOf(const Capture& capture) {
+std::vector<Rectangle> stepsDown(const Capture& capture, int tileRows) {
   const Size size = capture.size();
-  if (capture.bandRows() < size.height) return std::max(1, capture.bandRows());
-  return std::clamp(kFreeBandPixels / std::max(1, size.width), 1, std::max(1, size.height));
+  const int most = std::max(1, kStepPixels / std::max(1, size.width));
+  const int bandRows = std::max(1, capture.bandRows());
+  std::vector<Rectangle> steps;
+  for (int y = 0; y < size.height; y += steps.back().height) {
+    const int toBand = bandRows - y % bandRows, toTile = tileRows - y % tileRows;
+    steps.push_back({0, y, size.width, std::min({most, toBand, toTile, size.height - y})});
+  }
+  return steps;
 }
 
 PhotographBand readPhotograph(const Capture& capture, int light, const Rectangle& rows,
@@ -76,14 +82,11 @@ PhotographBand readPhotograph(const Capture& capture, int light, const Rectangle
 
 BytePicture coverageOf(const Capture& capture) {
   if (!capture.hasMask()) return {};
-  const Size size = capture.size();
-  const int step = bandRowsOf(capture);
-  BytePicture coverage(size, 1);
-  for (int y = 0; y < size.height; y += step) {
-    const Rectangle rows{0, y, size.width, std::min(step, size.height - y)};
+  BytePicture coverage(capture.size(), 1);
+  for (const Rectangle& rows : stepsDown(capture, capture.size().height)) {
     std::vector<float> band(rows.pixels());
     capture.readMask(0, rows, band);
-    const auto out = coverage.samples().subspan(Size{size.width, y}.pixels(), rows.pixels());
+    const auto out = coverage.samples().subspan(Size{rows.width, rows.y}.pixels(), rows.pixels());
     std::transform(band.begin(), band.end(), out.begin(), byteFromUnit);
   }
   return coverage;

@@ -1,6 +1,8 @@
 // The photographs of a capture, made again from its samples: what relit pictures are held against.
 #pragma once
 
+#include <vector>
+
 #include "illum/capture.h"
 #include "illum/picture.h"
 
@@ -13,10 +15,12 @@ struct PhotographBand {
   BytePicture bytes;  ///< the same on screen
 };
 
-/// How many rows to read at once: the step that the capture likes, or one of our own where it has
-/// no preference. Readers go down the picture in these steps and finish one for all lights before
-/// the next, since a sequential capture decodes all its photographs side by side.
-int bandRowsOf(const Capture& capture);
+/// The picture cut into rows of its whole width, from the top: no step crosses a multiple of the
+/// capture's bandRows() or of `tileRows` (> 0), so that each needs one band of the capture and one
+/// row of the object's tiles; none is larger than makes a read worthwhile. Readers finish a step
+/// for all lights before the next, since a sequential capture decodes all its photographs side by
+/// side.
+std::vector<Rectangle> stepsDown(const Capture& capture, int tileRows);
 
 /// The whole width of `rows` under light `light` (an index). A photograph is sample times light
 /// intensity, in linear light. For display-referred captures the bytes are those of the

@@ -1,6 +1,9 @@
 #include "study/photograph.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
+#include <vector>
 
 #include "illum/colour.h"
 #include "study/fake_capture_for_test.h"
@@ -85,14 +88,32 @@ TEST(Photograph, ABandIsACutOfTheWhole) {
     }
 }
 
-TEST(Photograph, BandsAreThoseOfTheCapture) {
+std::vector<int> endsOf(const std::vector<Rectangle>& steps) {
+  std::vector<int> ends;
+  for (const Rectangle& rows : steps) {
+    EXPECT_EQ(rows.y, ends.empty() ? 0 : ends.back());
+    ends.push_back(rows.bottom());
+  }
+  return ends;
+}
+
+TEST(Photograph, StepsCrossNeitherBandsNorTiles) {
+  using testing::ElementsAre;
   FakeCapture capture({100, 50}, Transfer::Linear, ringOfLights(1),
                       [](int, int, int, int) { return 0.0f; });
-  EXPECT_EQ(bandRowsOf(capture), 50);
-  EXPECT_EQ(bandRowsOf(capture.withBandRows(7)), 7);
-  const FakeCapture large({1 << 16, 50}, Transfer::Linear, ringOfLights(1),
+  EXPECT_THAT(endsOf(stepsDown(capture, 512)), ElementsAre(50));
+  EXPECT_THAT(endsOf(stepsDown(capture, 20)), ElementsAre(20, 40, 50));
+  EXPECT_THAT(endsOf(stepsDown(capture.withBandRows(16), 20)), ElementsAre(16, 20, 32, 40, 48, 50));
+  EXPECT_THAT(endsOf(stepsDown(capture.withBandRows(64), 512)), ElementsAre(50));
+}
+
+TEST(Photograph, StepsAreOfBoundedSize) {
+  const FakeCapture wide({1 << 18, 5}, Transfer::Linear, ringOfLights(1),
+                         [](int, int, int, int) { return 0.0f; });
+  EXPECT_THAT(endsOf(stepsDown(wide, 512)), testing::ElementsAre(2, 4, 5));
+  const FakeCapture wider({1 << 20, 2}, Transfer::Linear, ringOfLights(1),
                           [](int, int, int, int) { return 0.0f; });
-  EXPECT_EQ(bandRowsOf(large), 16);
+  EXPECT_THAT(endsOf(stepsDown(wider, 512)), testing::ElementsAre(1, 2));
 }
 
 TEST(Photograph, TheMaskIsReadAsBytes) {

@@ -114,7 +114,7 @@ std::string lightSection(const Evaluation& evaluation) {
   return html + "</div></div>\n" +
          "<p class=\"quiet\" style=\"margin-top:24px\">PSNR in decibels, in the order of the light "
          "file</p>\n" +
-         lightPlot(evaluation);
+         "<div class=\"scroll\">" + lightPlot(evaluation) + "</div>\n";
 }
 
 std::string imageTag(const BytePicture& picture, std::string_view caption) {

@@ -50,7 +50,7 @@ svg text { fill: var(--quiet); font-size: 12px; }
 .ring { fill: none; stroke: var(--accent); stroke-width: 1.75; }
 .mean { fill: none; stroke: var(--quiet); stroke-width: 1.25; }
 .dashed { stroke: var(--accent); stroke-dasharray: 5 4; }
-.plot { margin-top: 20px; padding-right: 8px; }
+.plot { margin-top: 20px; padding-right: 8px; min-width: 640px; }
 .trio { margin: 24px 0 0; display: grid; grid-template-columns: repeat(3, 1fr); gap: 8px 12px; }
 .trio header { grid-column: 1 / -1; display: flex; flex-wrap: wrap; gap: 0 20px;
   align-items: baseline; }
