@@ -12,7 +12,7 @@
 
 namespace illum {
 
-struct Manifest;    // src/object/manifest.h; what of it matters to users is repeated as members below
+struct Manifest;  // src/object/manifest.h; what of it matters to users is repeated as members below
 struct PlaneCodes;  // src/codec/tile.h
 
 /// An opened object. Cheap to copy; reading is thread safe.
@@ -36,7 +36,8 @@ class Object {
   PlaneCodes planeTile(int group, int level, int x, int y) const;
   /// 8-bit coverage of one tile; empty if the object has no mask.
   BytePicture maskTile(int group, int level, int x, int y) const;
-  /// What is wrong with the archive or folder itself, beyond what open() refuses: one sentence each.
+  /// What is wrong with the archive or folder itself, beyond what open() refuses: one sentence
+  /// each.
   std::vector<std::string> containerFaults() const;
 
  private:
@@ -44,9 +45,9 @@ class Object {
   std::shared_ptr<const State> state_;
 };
 
-/// Checks every byte of an object: archive structure, every CRC, every tile decoded, nothing missing and
-/// nothing unknown. Returns the faults found, one sentence each; empty = sound. Throws Error only if
-/// the object cannot be opened at all.
+/// Checks every byte of an object: archive structure, every CRC, every tile decoded, nothing
+/// missing and nothing unknown. Returns the faults found, one sentence each; empty = sound. Throws
+/// Error only if the object cannot be opened at all.
 std::vector<std::string> verifyObject(const std::filesystem::path& path);
 
 }  // namespace illum

@@ -21,7 +21,8 @@ constexpr int kRings = 24;
 
 // mean over directions of w(d) w(d)^T, half over the lit domain and half over the lights.
 Matrix interpolationGram(const Kriging& kriging, std::span<const Direction> lights) {
-  const std::vector<WeightedDirection> nodes = capQuadrature(litCapOf(lights).thetaMaxRadians, kRings);
+  const std::vector<WeightedDirection> nodes =
+      capQuadrature(litCapOf(lights).thetaMaxRadians, kRings);
   std::vector<Direction> directions;
   for (const WeightedDirection& node : nodes) directions.push_back(node.direction);
   const Matrix atLights = kriging.weightsAt(lights);
