@@ -65,16 +65,17 @@ def read_16_bits(path):
 
 
 def read_unit(path):
-    """Values in [0, 1] as they stand in the file, and whether the file has 16 bits."""
+    """Values in [0, 1] as they stand in the file, and whether it says that they are linear (gAMA 1)."""
     image = Image.open(path)
+    linear = abs(image.info.get("gamma", 0) - 1) < 1e-4
     raw_mode = image.tile[0][3] if image.tile else ""
     if raw_mode == "RGB;16B":
-        return read_16_bits(path), True
+        return read_16_bits(path), linear
     if image.mode.startswith("I"):
-        return np.asarray(image, np.float64) / 65535, True
+        return np.asarray(image, np.float64) / 65535, linear
     if image.mode == "P":
         image = image.convert("RGBA" if "transparency" in image.info else "RGB")
-    return np.asarray(image, np.float64) / 255, False
+    return np.asarray(image, np.float64) / 255, linear
 
 
 def over_black(encoded, coverage):
@@ -87,10 +88,11 @@ def read_relit(path):
 
 
 def read_photograph(path, mask, transfer):
-    """Encoded, over black. 16-bit files are linear unless `transfer` says otherwise."""
-    unit, deep = read_unit(path)
+    """Encoded, over black. sRGB unless the file or `transfer` says otherwise."""
+    unit, linear = read_unit(path)
     colour, alpha = as_rgb(unit)
-    linear = deep if transfer == "auto" else transfer == "linear"
+    if transfer:
+        linear = transfer == "linear"
     return over_black(encode(colour) if linear else colour, alpha if mask is None else mask)
 
 
@@ -165,7 +167,7 @@ def main():
     parser.add_argument("--lights", type=pathlib.Path, help="default: the .lp file in the folder")
     parser.add_argument("--holdout", type=int, default=0, help="lights K-1, 2K-1, ... were left out")
     parser.add_argument("--mask", type=pathlib.Path, help="default: the photographs' own alpha")
-    parser.add_argument("--transfer", choices=["auto", "linear", "display"], default="auto")
+    parser.add_argument("--transfer", choices=["linear", "srgb"], help="default: as the files say")
     parser.add_argument("--ssim", action="store_true")
     parser.add_argument("--json", action="store_true")
     options = parser.parse_args()
