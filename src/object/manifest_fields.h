@@ -1,0 +1,157 @@
+// One description of each record of object.json, `describe`, drives reading, writing and checking.
+// A visitor (object/json_visitors.h) has one function for each kind of field:
+//
+//   integer, number, flag, text, choice     scalars, with their limits
+//   triple, numbers, integers               lists of fixed or bounded length
+//   record, records                         a described record, or a list of them
+//
+// To extend the format within version 1: add a field as `optional("name")` whose default means what
+// older objects meant, and raise kMinor. Anything that older readers must not ignore needs a new
+// major.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <initializer_list>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "object/entry_source.h"
+#include "object/manifest.h"
+
+namespace illum::manifestfile {
+
+inline constexpr int kMajor = 1, kMinor = 0;
+inline constexpr std::string_view kFormat = "illum";
+inline constexpr double kHuge = 1e30;  // of any number; leaves room for products of two in double
+inline constexpr std::size_t kMaxTextBytes = 4096;
+inline constexpr std::size_t kMaxProvenance = 1000;
+
+/// Of a field.
+struct Name {
+  std::string_view text;
+  bool optional = false;
+  constexpr Name(const char* t) : text(t) {}  // a plain literal names a required field
+  constexpr Name(std::string_view t, bool o) : text(t), optional(o) {}
+};
+/// A field that may be missing and then keeps its default.
+constexpr Name optional(std::string_view text) {
+  return {text, true};
+}
+
+template <typename Real>
+using Triple = std::array<Real*, 3>;
+template <typename Enum>
+using Choices = std::initializer_list<std::pair<Enum, std::string_view>>;
+
+/// Three coordinates or channels, in the file a list.
+inline Triple<double> coordinatesOf(Vector3& v) {
+  return {&v.x, &v.y, &v.z};
+}
+inline Triple<float> channelsOf(LinearRgb& colour) {
+  return {&colour.r, &colour.g, &colour.b};
+}
+
+template <typename Visitor>
+void describe(Visitor& v, Size& size) {
+  v.integer("width", size.width, 1, kMaxSide);
+  v.integer("height", size.height, 1, kMaxSide);
+}
+
+template <typename Visitor>
+void describe(Visitor& v, RigidTransform& transform) {
+  v.numbers("rotation", transform.rotation, -1.000001, 1.000001);
+  v.triple("translation", coordinatesOf(transform.translation), -kHuge, kHuge);
+}
+
+template <typename Visitor>
+void describe(Visitor& v, BasisEntry& basis) {
+  using Kind = BasisColour::Kind;
+  v.text("name", basis.name);
+  v.integer("coefficients", basis.coefficients, 1, kMaxPlanes);
+  v.choice("kind", basis.colour.kind,
+           Choices<Kind>{{Kind::Separable, "separable"}, {Kind::Full, "full"}});
+  v.numbers("colourMatrix", basis.colour.colourMatrix, -kHuge, kHuge);
+  v.integer("tableOffset", basis.tableOffset, 0, kMaxBasisBytes);
+  v.integer("tableBytes", basis.tableBytes, 1, kMaxBasisBytes);
+  v.numbers(optional("mixing"), basis.mixing, -kHuge, kHuge, 0, kMaxPlanes * kMaxPlanes);
+}
+
+template <typename Visitor>
+void describe(Visitor& v, GroupEntry& group) {
+  v.text("name", group.name);
+  v.integer("basis", group.basis, 0, kMaxBases - 1);
+  v.integer("views", group.views, 1, 1);
+  v.record("objectFromGroup", group.objectFromGroup);
+}
+
+template <typename Visitor>
+void describe(Visitor& v, CodingEntry& coding) {
+  v.choice("name", coding.coding,
+           Choices<Coding>{{Coding::Png, "png"}, {Coding::Avif, "avif"}, {Coding::Jpeg, "jpeg"}});
+  v.integer("bits", coding.bits, 8, 16);
+  v.choice("curve", coding.curve,
+           Choices<Curve>{{Curve::Linear, "linear"}, {Curve::SignedSqrt, "signedSqrt"}});
+  v.number("step", coding.step, 1e-30, kHuge);
+  v.numbers("offsets", coding.offsets, -kHuge, kHuge, 1, kMaxPlanes);
+  v.integers("functions", coding.functions, 0, kMaxPlanes - 1, 1, kMaxPlanes);
+  v.integer(optional("quality"), coding.quality, 0, 100);
+}
+
+/// A light of the capture, its direction not yet checked to be one.
+struct LightRecord {
+  std::string name;
+  Vector3 direction;
+  LinearRgb intensity{1, 1, 1};
+};
+
+template <typename Visitor>
+void describe(Visitor& v, LightRecord& light) {
+  v.text("name", light.name);
+  v.triple("direction", coordinatesOf(light.direction), -kHuge, kHuge);
+  v.triple(optional("intensity"), channelsOf(light.intensity), 0, kHuge);
+}
+
+struct ProvenanceRecord {
+  std::string name, value;
+};
+
+template <typename Visitor>
+void describe(Visitor& v, ProvenanceRecord& record) {
+  v.text("name", record.name);
+  v.text("value", record.value);
+}
+
+/// The manifest with the two lists that differ between memory and file.
+struct FileManifest {
+  Manifest manifest;
+  std::vector<LightRecord> lights;
+  std::vector<ProvenanceRecord> provenance;
+};
+
+template <typename Visitor>
+void describe(Visitor& v, FileManifest& file) {
+  Manifest& m = file.manifest;
+  v.text("generator", m.generator);
+  v.text("geometry", m.geometry);
+  v.record("size", m.size);
+  v.integer("tile", m.tile, kMinTile, kMaxTile);
+  v.integer("levels", m.levels, 1, kMaxLevels);
+  v.choice("domain", m.domain,
+           Choices<LightDomain>{{LightDomain::Hemisphere, "hemisphere"},
+                                {LightDomain::Sphere, "sphere"}});
+  v.choice(
+      "response", m.response,
+      Choices<Response>{
+          {Response::Linear, "linear"}, {Response::Display, "display"}, {Response::Cone, "cone"}});
+  v.record("coding", m.coding);
+  v.records("bases", m.bases, 1, kMaxBases);
+  v.records("groups", m.groups, 1, kMaxGroups);
+  v.flag(optional("mask"), m.mask);
+  v.records(optional("lights"), file.lights, 0, kMaxLights);
+  v.integers(optional("heldOut"), m.heldOut, 0, kMaxLights - 1, 0, kMaxLights);
+  v.records(optional("provenance"), file.provenance, 0, kMaxProvenance);
+}
+}  // namespace illum::manifestfile
