@@ -95,9 +95,8 @@ WholeWay readAndFit(const std::filesystem::path& folder, std::uint64_t memoryByt
   const double planning = secondsSince(start) - opening;
   Manifest manifest;
   manifest.size = capture->size();
-  for (int row = 0; row < manifest.tilesDown(0); ++row) {
-    fitRow(*capture, lights.used, plan.fit.planes, manifest, row);
-  }
+  RowFitter fitter(*capture, lights.used, plan.fit.planes, manifest);
+  for (int row = 0; row < manifest.tilesDown(0); ++row) fitter.fit(row);
   return {secondsSince(start), opening, planning, plan.fit};
 }
 

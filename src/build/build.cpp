@@ -183,9 +183,8 @@ std::uint64_t writeTiles(const Capture& capture, const LightChoice& lights, cons
                encodeJpeg(posterOf(row, fit, manifest, lights.directions), kPosterQuality));
   });
   progress.begin("fitting and coding tiles", tileCount(manifest));
-  for (int row = 0; row < manifest.tilesDown(0); ++row) {
-    pyramid.add(fitRow(capture, lights.used, fit.planes, manifest, row));
-  }
+  RowFitter fitter(capture, lights.used, fit.planes, manifest);
+  for (int row = 0; row < manifest.tilesDown(0); ++row) pyramid.add(fitter.fit(row));
   progress.end();
   return tiles.clippedSamples();
 }

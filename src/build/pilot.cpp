@@ -30,6 +30,37 @@ std::vector<Rectangle> blocksOfRow(Size size, int blockRow, int stride) {
   return blocks;
 }
 
+constexpr std::size_t kMomentParts = 8;
+
+// Sums over some pixels; of the products only the upper triangle.
+struct Moments {
+  std::vector<double> sum, products;
+};
+
+Moments momentsOf(const Pilot& pilot, std::size_t begin, std::size_t end) {
+  // Products are summed in float over a slice and the slices in double, so that small eigenvalues
+  // of the moments survive.
+  constexpr std::size_t kSlice = 2048;
+  const std::size_t rows = 3 * static_cast<std::size_t>(pilot.lights);
+  Moments moments{std::vector<double>(rows), std::vector<double>(rows * rows)};
+  std::vector<float> partial(rows * rows);
+  const auto ld = static_cast<int>(pilot.pixels);
+  for (; begin < end; begin += kSlice) {
+    const std::size_t count = std::min(kSlice, end - begin);
+    cblas_ssyrk(CblasRowMajor, CblasUpper, CblasNoTrans, static_cast<int>(rows),
+                static_cast<int>(count), 1.0f, pilot.samples.data() + begin, ld, 0.0f,
+                partial.data(), static_cast<int>(rows));
+    for (std::size_t i = 0; i < rows; ++i) {
+      for (std::size_t j = i; j < rows; ++j) {
+        moments.products[i * rows + j] += static_cast<double>(partial[i * rows + j]);
+      }
+      const float* row = pilot.samples.data() + i * pilot.pixels + begin;
+      for (std::size_t p = 0; p < count; ++p) moments.sum[i] += static_cast<double>(row[p]);
+    }
+  }
+  return moments;
+}
+
 struct BlockSamples {
   std::size_t pixels = 0;
   std::vector<float> samples;  // rows x pixels
@@ -115,36 +146,26 @@ Pilot drawPilot(const Capture& capture, std::span<const int> lights, std::size_t
 }
 
 SampleStatistics statisticsOf(const Pilot& pilot) {
-  // Products are summed in float over a slice and the slices in double, so that small eigenvalues
-  // of the moments survive.
-  constexpr std::size_t kSlice = 2048;
   const std::size_t rows = 3 * static_cast<std::size_t>(pilot.lights);
+  // A fixed number of parts, added up in their order: the sum does not depend on the threads.
+  std::vector<Moments> parts(kMomentParts);
+  tbb::parallel_for(std::size_t{0}, kMomentParts, [&](std::size_t part) {
+    const std::size_t begin = pilot.pixels * part / kMomentParts;
+    const std::size_t end = pilot.pixels * (part + 1) / kMomentParts;
+    parts[part] = momentsOf(pilot, begin, end);
+  });
   SampleStatistics statistics;
   statistics.lights = pilot.lights;
   statistics.pixels = pilot.pixels;
   statistics.mean.assign(rows, 0);
   statistics.gram.assign(rows * rows, 0);
-
-  std::vector<float> partial(rows * rows);
-  const auto ld = static_cast<int>(pilot.pixels);
-  for (std::size_t begin = 0; begin < pilot.pixels; begin += kSlice) {
-    const std::size_t count = std::min(kSlice, pilot.pixels - begin);
-    cblas_ssyrk(CblasRowMajor, CblasUpper, CblasNoTrans, static_cast<int>(rows),
-                static_cast<int>(count), 1.0f, pilot.samples.data() + begin, ld, 0.0f,
-                partial.data(), static_cast<int>(rows));
-    for (std::size_t i = 0; i < rows; ++i) {
-      for (std::size_t j = i; j < rows; ++j) {
-        statistics.gram[i * rows + j] += static_cast<double>(partial[i * rows + j]);
-      }
-      const float* row = pilot.samples.data() + i * pilot.pixels + begin;
-      for (std::size_t p = 0; p < count; ++p) statistics.mean[i] += static_cast<double>(row[p]);
-    }
-  }
   const double scale = 1.0 / static_cast<double>(pilot.pixels);
-  for (double& m : statistics.mean) m *= scale;
+  for (const Moments& part : parts) {
+    for (std::size_t i = 0; i < rows; ++i) statistics.mean[i] += scale * part.sum[i];
+    for (std::size_t i = 0; i < rows * rows; ++i) statistics.gram[i] += scale * part.products[i];
+  }
   for (std::size_t i = 0; i < rows; ++i) {
     for (std::size_t j = i; j < rows; ++j) {
-      statistics.gram[i * rows + j] *= scale;
       statistics.gram[j * rows + i] = statistics.gram[i * rows + j];
     }
   }

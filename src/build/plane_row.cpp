@@ -4,7 +4,6 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <utility>
 
 namespace illum {
 namespace {
@@ -13,68 +12,77 @@ namespace {
 // second-level cache. Fixed, so that results do not depend on the number of threads.
 constexpr int kPatchWidth = 512, kPatchHeight = 8;
 
-PlaneRow emptyRow(const Manifest& manifest, int planes, int level, int row) {
+// Sizes `out` for a row of tiles. What was in it stays where it is not written.
+void beginRow(const Manifest& manifest, int planes, int level, int row, PlaneRow& out) {
   const Size whole = manifest.sizeAt(level);
-  PlaneRow out;
   out.level = level;
   out.row = row;
   out.size = {whole.width, std::min(manifest.tile, whole.height - row * manifest.tile)};
   out.values.resize(static_cast<std::size_t>(planes) * out.size.pixels());
   if (manifest.mask) out.coverage.resize(out.size.pixels());
-  return out;
-}
-
-struct Scratch {
-  std::vector<float> samples, planes, coverage;
-};
-
-// Fits one patch (in picture coordinates) into the row of tiles that begins at picture row `top`.
-void fitPatch(const Capture& capture, std::span<const int> lights, const PlaneOperator& planes,
-              const Rectangle& patch, int top, Scratch& scratch, PlaneRow& out) {
-  const std::size_t pixels = patch.pixels();
-  scratch.samples.resize(3 * lights.size() * pixels);
-  scratch.planes.resize(static_cast<std::size_t>(planes.planes) * pixels);
-  capture.read(0, patch, lights, scratch.samples);
-  planes.apply(scratch.samples, pixels, scratch.planes);
-  const auto store = [&](const float* from, float* plane) {
-    for (int y = 0; y < patch.height; ++y, from += patch.width) {
-      const auto at =
-          static_cast<std::size_t>(patch.y - top + y) * static_cast<std::size_t>(out.size.width) +
-          static_cast<std::size_t>(patch.x);
-      std::copy_n(from, patch.width, plane + at);
-    }
-  };
-  for (std::size_t k = 0; k < static_cast<std::size_t>(planes.planes); ++k) {
-    store(scratch.planes.data() + k * pixels, out.values.data() + k * out.size.pixels());
-  }
-  if (out.coverage.empty()) return;
-  scratch.coverage.resize(pixels);
-  capture.readMask(0, patch, scratch.coverage);
-  store(scratch.coverage.data(), out.coverage.data());
 }
 
 }  // namespace
 
-PlaneRow fitRow(const Capture& capture, std::span<const int> lights, const PlaneOperator& planes,
-                const Manifest& manifest, int row) {
-  PlaneRow out = emptyRow(manifest, planes.planes, 0, row);
-  const int top = row * manifest.tile, bottom = top + out.size.height;
-  const int across = (out.size.width + kPatchWidth - 1) / kPatchWidth;
+struct RowFitter::Scratch {
+  std::vector<float> samples, planes, coverage;
+};
+
+struct RowFitter::State {
   tbb::enumerable_thread_specific<Scratch> scratches;
+};
+
+RowFitter::RowFitter(const Capture& capture, std::span<const int> lights,
+                     const PlaneOperator& planes, const Manifest& manifest)
+    : capture_(capture),
+      lights_(lights),
+      operator_(planes),
+      manifest_(manifest),
+      state_(std::make_unique<State>()) {}
+RowFitter::~RowFitter() = default;
+
+// Fits one patch (in picture coordinates) into the row of tiles that begins at picture row `top`.
+void RowFitter::fitPatch(const Rectangle& patch, int top, Scratch& scratch) {
+  const std::size_t pixels = patch.pixels();
+  scratch.samples.resize(3 * lights_.size() * pixels);
+  scratch.planes.resize(static_cast<std::size_t>(operator_.planes) * pixels);
+  capture_.read(0, patch, lights_, scratch.samples);
+  operator_.apply(scratch.samples, pixels, scratch.planes);
+  const auto store = [&](const float* from, float* plane) {
+    for (int y = 0; y < patch.height; ++y, from += patch.width) {
+      const auto at =
+          static_cast<std::size_t>(patch.y - top + y) * static_cast<std::size_t>(row_.size.width) +
+          static_cast<std::size_t>(patch.x);
+      std::copy_n(from, patch.width, plane + at);
+    }
+  };
+  for (std::size_t k = 0; k < static_cast<std::size_t>(operator_.planes); ++k) {
+    store(scratch.planes.data() + k * pixels, row_.values.data() + k * row_.size.pixels());
+  }
+  if (row_.coverage.empty()) return;
+  scratch.coverage.resize(pixels);
+  capture_.readMask(0, patch, scratch.coverage);
+  store(scratch.coverage.data(), row_.coverage.data());
+}
+
+const PlaneRow& RowFitter::fit(int row) {
+  beginRow(manifest_, operator_.planes, 0, row, row_);
+  const int top = row * manifest_.tile, bottom = top + row_.size.height;
+  const int across = (row_.size.width + kPatchWidth - 1) / kPatchWidth;
   for (int y = top; y < bottom;) {
     // Never across the border of two bands: a sequential capture would have to go back.
-    const int bandEnd = (y / capture.bandRows() + 1) * capture.bandRows();
+    const int bandEnd = (y / capture_.bandRows() + 1) * capture_.bandRows();
     const int end = std::min(bottom, bandEnd);
     const int down = (end - y + kPatchHeight - 1) / kPatchHeight;
     tbb::parallel_for(0, across * down, [&](int i) {
       const int px = i % across * kPatchWidth, py = y + i / across * kPatchHeight;
-      const Rectangle patch{px, py, std::min(kPatchWidth, out.size.width - px),
+      const Rectangle patch{px, py, std::min(kPatchWidth, row_.size.width - px),
                             std::min(kPatchHeight, end - py)};
-      fitPatch(capture, lights, planes, patch, top, scratches.local(), out);
+      fitPatch(patch, top, state_->scratches.local());
     });
     y = end;
   }
-  return out;
+  return row_;
 }
 
 std::uint64_t planeRowBytes(const Manifest& manifest, int basisPlanes) {
@@ -84,18 +92,14 @@ std::uint64_t planeRowBytes(const Manifest& manifest, int basisPlanes) {
   return 2 * row;  // level l in flight is half as wide as level l-1
 }
 
-void LevelPyramid::add(PlaneRow row) {
+void LevelPyramid::add(const PlaneRow& row) {
+  emit_(row);
   const int next = row.level + 1;
-  if (next >= manifest_.levels) {
-    emit_(std::move(row));
-    return;
-  }
+  if (next >= manifest_.levels) return;
   auto& pending = pending_[static_cast<std::size_t>(next)];
-  if (pending.values.empty()) pending = emptyRow(manifest_, planes_, next, row.row / 2);
+  if (row.row % 2 == 0) beginRow(manifest_, planes_, next, row.row / 2, pending);
   shrinkInto(row, pending);
-  const bool whole = row.row % 2 == 1 || row.row == manifest_.tilesDown(row.level) - 1;
-  emit_(std::move(row));
-  if (whole) add(std::exchange(pending, {}));
+  if (row.row % 2 == 1 || row.row == manifest_.tilesDown(row.level) - 1) add(pending);
 }
 
 void LevelPyramid::shrinkInto(const PlaneRow& fine, PlaneRow& coarse) const {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -20,12 +21,33 @@ struct PlaneRow {
   std::vector<float> coverage;  ///< empty without a mask
 };
 
-/// Reads row `row` of tiles of level 0 and fits it, in parallel. `bandRows`: see Capture. The
-/// reading goes down the picture only.
-PlaneRow fitRow(const Capture& capture, std::span<const int> lights, const PlaneOperator& planes,
-                const Manifest& manifest, int row);
+/// Fits rows of tiles of level 0. Buffers are kept from row to row: fresh pages cost as much as the
+/// fitting itself.
+class RowFitter {
+ public:
+  /// All must outlive the fitter.
+  RowFitter(const Capture& capture, std::span<const int> lights, const PlaneOperator& planes,
+            const Manifest& manifest);
+  ~RowFitter();
 
-/// Bytes that fitRow's result takes for the widest row of `manifest`, all levels in flight
+  /// Reads and fits row `row`, in parallel. Rows are asked for from the top down: a sequential
+  /// capture would have to go back otherwise. What is returned holds until the next call.
+  const PlaneRow& fit(int row);
+
+ private:
+  struct Scratch;
+  struct State;
+  void fitPatch(const Rectangle& patch, int top, Scratch& scratch);
+
+  const Capture& capture_;
+  std::span<const int> lights_;
+  const PlaneOperator& operator_;
+  const Manifest& manifest_;
+  PlaneRow row_;
+  std::unique_ptr<State> state_;
+};
+
+/// Bytes that fitted rows take for the widest row of `manifest`, all levels in flight
 /// included.
 std::uint64_t planeRowBytes(const Manifest& manifest, int basisPlanes);
 
@@ -33,7 +55,7 @@ std::uint64_t planeRowBytes(const Manifest& manifest, int basisPlanes);
 /// tiles.
 class LevelPyramid {
  public:
-  using Emit = std::function<void(PlaneRow)>;
+  using Emit = std::function<void(const PlaneRow&)>;
 
   LevelPyramid(const Manifest& manifest, int basisPlanes, Emit emit)
       : manifest_(manifest),
@@ -42,7 +64,7 @@ class LevelPyramid {
         pending_(static_cast<std::size_t>(manifest.levels)) {}
 
   /// Takes the rows of level 0 in order; emits each, and every coarser row as soon as it is whole.
-  void add(PlaneRow row);
+  void add(const PlaneRow& row);
 
  private:
   void shrinkInto(const PlaneRow& fine, PlaneRow& coarse) const;
@@ -50,7 +72,7 @@ class LevelPyramid {
   const Manifest& manifest_;
   int planes_;
   Emit emit_;
-  std::vector<PlaneRow> pending_;  // by level
+  std::vector<PlaneRow> pending_;  // by level; their buffers are used again
 };
 
 }  // namespace illum
