@@ -1,6 +1,8 @@
 // A small object on disk, for tests: the same picture under every light.
 #pragma once
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <filesystem>
 #include <functional>
@@ -20,7 +22,8 @@ namespace illum {
 class TemporaryFolder {
  public:
   explicit TemporaryFolder(const std::string& name)
-      : path_(std::filesystem::temp_directory_path() / ("illum_study_" + name)) {
+      : path_(std::filesystem::temp_directory_path() /
+              ("illum_study_" + name + "-" + std::to_string(::getpid()))) {
     std::filesystem::remove_all(path_);
     std::filesystem::create_directories(path_);
   }
