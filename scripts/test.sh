@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Everything that CI checks, from a fresh Debian 12 on. Stops at the first stage that fails; the last
-# lines are the runners' own summaries and their sum.
+# Everything that CI checks, from a fresh Debian 12 on. Stops at the first stage that fails; the
+# last lines are the runners' own summaries and their sum.
 #
 #   FUZZ_SECONDS=30    for each fuzzer
 #   ILLUM_SHARED=DIR   the shared test data (default ../shared); without it those tests are skipped,
@@ -45,8 +45,8 @@ count() { # PASSED FAILED SKIPPED
 
 # The sum of an attribute over a JUnit file's suites.
 junit() { # FILE ATTRIBUTE
-  grep -o '<testsuite [^>]*' "$1" | grep -o " $2=\"[0-9]*\"" | tr -dc '0-9\n' |
-    awk '{ sum += $1 } END { print sum + 0 }'
+  tr '\n\t' '  ' <"$1" | grep -o '<testsuite [^>]*' | grep -o " $2=\"[0-9]*\"" |
+    tr -dc '0-9\n' | awk '{ sum += $1 } END { print sum + 0 }'
 }
 
 count_junit() { # FILE
