@@ -40,7 +40,7 @@ finish() {
 trap finish EXIT
 
 count() { # PASSED FAILED SKIPPED
-  passed=$((passed + $1)) failed=$((failed + $2)) skipped=$((skipped + $3))
+  passed=$((passed + ${1:-0})) failed=$((failed + ${2:-0})) skipped=$((skipped + ${3:-0}))
 }
 
 # The sum of an attribute over a JUnit file's suites.
