@@ -17,7 +17,7 @@ build_packages=(
 )
 test_packages=(
   clang-16 libclang-rt-16-dev clang-format libbenchmark-dev
-  python3-pytest util-linux coreutils git chromium
+  python3-pytest python3-pytest-xdist util-linux coreutils git chromium
 )
 
 missing_of() {

@@ -110,7 +110,7 @@ stage "Unit tests"
 run_ctest unit build/release
 
 stage "Command line"
-run_pytest cli tests/cli
+run_pytest cli -n "$jobs" tests/cli
 
 stage "Installation and a program built against it"
 run_pytest install tests/install
@@ -136,7 +136,7 @@ cmake --build --preset sanitize
 export ASAN_OPTIONS=exitcode=99 UBSAN_OPTIONS=exitcode=99:print_stacktrace=1
 run_ctest sanitized-unit build/sanitize
 ILLUM_BIN=$PWD/build/sanitize/tools/illum/illum run_pytest sanitized-cli \
-  tests/cli/test_hostile_photographs.py tests/cli/test_hostile_objects.py
+  -n "$jobs" tests/cli/test_hostile_photographs.py tests/cli/test_hostile_objects.py
 
 stage "Fuzzers, $fuzz_seconds s each"
 for fuzzer in build/sanitize/tests/fuzz/*_fuzz; do
