@@ -35,6 +35,10 @@ struct BuildOptions {
   std::function<bool()> stop;
 };
 
+/// What the capture may hold out of a whole budget; the rest is for fitting, coding and the
+/// program.
+std::uint64_t captureMemoryBytes(std::uint64_t budgetBytes);
+
 struct BuildReport {
   std::uint64_t bytes = 0;
   double quantisationDecibels = 0;  ///< PSNR of quantisation alone, on screen

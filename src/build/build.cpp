@@ -26,6 +26,11 @@ constexpr int kDefaultSpeed = 6;
 constexpr int kDefaultTile = 512;
 constexpr int kPosterQuality = 80;
 
+// What a program that reads photographs takes before it does anything: OpenImageIO's libraries.
+constexpr std::uint64_t kProgramBytes = std::uint64_t{160} << 20;
+constexpr std::uint64_t kLeastCaptureBytes = std::uint64_t{64} << 20;
+constexpr double kCaptureShare = 0.55;
+
 Response responseFor(const BuildOptions& options, Transfer transfer) {
   if (!options.response) {
     return transfer == Transfer::Display ? Response::Display : Response::Linear;
@@ -147,15 +152,22 @@ Manifest manifestFor(const Capture& capture, const LightChoice& lights, const Bu
 // How many tiles may be coded side by side, or an Error with the least budget.
 int tilesAtOnce(const Manifest& manifest, int basisPlanes, const Capture& capture,
                 std::uint64_t memoryBytes) {
-  const std::uint64_t fixed = capture.residentBytes() + planeRowBytes(manifest, basisPlanes);
+  const std::uint64_t fixed =
+      kProgramBytes + capture.residentBytes() + planeRowBytes(manifest, basisPlanes);
   const std::uint64_t each = tileCodingBytes(manifest, basisPlanes);
   if (fixed + each > memoryBytes) {
+    // The capture takes its share of a larger budget, so its part of the sum grows too.
+    const std::uint64_t own = planeRowBytes(manifest, basisPlanes) + each;
+    const std::uint64_t least =
+        kProgramBytes +
+        std::max(capture.residentBytes() + own,
+                 static_cast<std::uint64_t>(static_cast<double>(own) / (1 - kCaptureShare)));
     throw Error(
         Fault::Input,
-        fmt::format("--max-memory {}: this object needs at least {} ({} for the photographs, "
-                    "{} for a row of tiles, {} to code a tile); a smaller --tile needs less",
-                    textFromBytes(memoryBytes), textFromBytes(fixed + each),
-                    textFromBytes(capture.residentBytes()),
+        fmt::format("--max-memory {}: this object needs at least {} ({} for a row of tiles, "
+                    "{} to code a tile, the rest for photographs and program); a smaller "
+                    "--tile needs less",
+                    textFromBytes(memoryBytes), textFromBytes(least),
                     textFromBytes(planeRowBytes(manifest, basisPlanes)), textFromBytes(each)));
   }
   const auto threads = static_cast<std::uint64_t>(tbb::this_task_arena::max_concurrency());
@@ -209,6 +221,12 @@ void describe(const Plan& plan, const EncodeSettings& settings, Manifest& manife
 
 }  // namespace
 
+std::uint64_t captureMemoryBytes(std::uint64_t budgetBytes) {
+  const std::uint64_t usable = budgetBytes - std::min(budgetBytes, kProgramBytes);
+  return std::max(kLeastCaptureBytes,
+                  static_cast<std::uint64_t>(kCaptureShare * static_cast<double>(usable)));
+}
+
 BuildReport buildObject(const Capture& source, const std::filesystem::path& out,
                         const BuildOptions& options, Progress& reported) {
   checkOptions(options);
@@ -226,7 +244,8 @@ BuildReport buildObject(const Capture& source, const std::filesystem::path& out,
                       fingerprintOf(capture, options), options.resume, options.force);
   BuildReport report;
   try {
-    const std::uint64_t forPlan = memoryBytes - std::min(memoryBytes, capture.residentBytes());
+    const std::uint64_t forPlan =
+        memoryBytes - std::min(memoryBytes, kProgramBytes + capture.residentBytes());
     const Plan plan = planObject(capture, lights, options, response, forPlan, progress);
     EncodeSettings settings;
     settings.quality = options.quality >= 0 ? options.quality : kDefaultQuality;

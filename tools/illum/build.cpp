@@ -23,9 +23,6 @@ void askToStop(int signal) {
   std::signal(signal, SIG_DFL);
 }
 
-// The capture may hold this share of the budget; the rest is for fitting and coding.
-constexpr double kCaptureShare = 0.6;
-
 struct BuildCommand {
   InputOptions input;
   MachineOptions machine;
@@ -119,11 +116,9 @@ struct BuildCommand {
     TerminalProgress progress;
     std::signal(SIGINT, askToStop);
     std::signal(SIGTERM, askToStop);
-    const auto forCapture =
-        static_cast<std::uint64_t>(kCaptureShare * static_cast<double>(build.memoryBytes));
     auto scratch = std::filesystem::absolute(output).parent_path();
     if (!std::filesystem::path(output).has_filename()) scratch = scratch.parent_path();
-    const auto capture = input.open(forCapture, scratch, progress);
+    const auto capture = input.open(captureMemoryBytes(build.memoryBytes), scratch, progress);
     const BuildReport report = buildObject(*capture, output, build, progress);
     for (const auto& warning : report.warnings) progress.remark(warning);
     if (report.stopped) {

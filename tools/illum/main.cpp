@@ -37,6 +37,10 @@ int run(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return complain(static_cast<int>(illum::Fault::Usage), error.what());
   }
+  // A full disk behind a pipe or file shows only when the last bytes leave.
+  if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
+    throw illum::Error(illum::Fault::Machine, "standard output: cannot write all of it");
+  }
   return exitCode;
 }
 

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <filesystem>
 #include <memory>
 #include <set>
@@ -23,7 +24,11 @@ DirectionalLight lightFromText(const std::string& text) {
   std::vector<double> numbers;
   for (const auto& part : CLI::detail::split(text, ',')) {
     double number = 0;
-    if (!CLI::detail::lexical_cast(part, number)) numbers.clear();
+    const bool fine = CLI::detail::lexical_cast(part, number) && std::isfinite(number);
+    if (!fine) {
+      numbers.clear();
+      break;
+    }
     numbers.push_back(number);
   }
   if (numbers.size() != 3 && numbers.size() != 6) {
