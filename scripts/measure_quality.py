@@ -17,7 +17,6 @@ import re
 import subprocess
 import sys
 import tempfile
-import time
 
 ROOT = pathlib.Path(__file__).resolve().parents[1]
 JUDGE = ROOT / "tests/cli/judge.py"
@@ -68,10 +67,8 @@ class Measurement:
         self.input_options = ["--mask", self.mask] if self.mask.exists() else []
         if stack.parent.name in LINEAR_STACKS:
             self.input_options += ["--transfer", "linear"]
-        start = time.monotonic()
         call(illum, "build", stack, "-o", self.object, "--holdout", HOLDOUT, "--force",
              *self.input_options, *options)
-        self.seconds = time.monotonic() - start
         self.bytes = self.object.stat().st_size
 
     def judge(self, photographs, work, holdout):
@@ -114,7 +111,7 @@ def stack_row(illum, stack, peers):
     peer = peers.get(stack.parent.name)
     held_out, used = figures["heldOut"]["psnr"], figures["used"]["psnr"]
     return [stack.parent.name, f"{held_out:.2f}", f"{used:.2f}", test_psnr, f"{measured.bytes:,}",
-            f"{measured.seconds:.0f}", peer["what"] if peer else "-",
+            peer["what"] if peer else "-",
             f"{peer['psnr']:.2f}" if peer else "-", f"{peer['bytes']:,}" if peer else "-",
             verdict(held_out, measured.bytes, peer)]
 
@@ -164,7 +161,7 @@ def main():
         rows.append(stack_row(options.illum, stack, peers))
         print(" ".join(rows[-1]), file=sys.stderr)
     tables = {"stacks": markdown(
-        ["stack", "held out, dB", "used, dB", "test lights, dB", "bytes", "build, s",
+        ["stack", "held out, dB", "used, dB", "test lights, dB", "bytes",
          "relight's best row", "its held out, dB", "its bytes", "kept"], rows)}
     qualities = [int(q) for q in options.qualities.split(",") if q]
     if qualities:
