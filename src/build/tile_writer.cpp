@@ -72,8 +72,8 @@ std::uint64_t tileCodingBytes(const Manifest& manifest, int basisPlanes) {
   const auto pixels = static_cast<std::uint64_t>(std::min(manifest.tile, manifest.size.width)) *
                       static_cast<std::uint64_t>(std::min(manifest.tile, manifest.size.height));
   const auto stored = static_cast<std::uint64_t>(manifest.planes());
-  // Planes cut out as floats, codes, and libaom's frames, reference copies and side data, which
-  // were measured at about 24 bytes a sample of the atlas.
+  // Planes cut out as floats, codes, and libaom's frames and side data. The 24 bytes a sample are
+  // an estimate that the tests of --max-memory hold, not a measurement of libaom.
   return pixels * (4 * static_cast<std::uint64_t>(basisPlanes) + (2 + 24) * stored);
 }
 

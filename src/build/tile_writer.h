@@ -42,7 +42,7 @@ class TileWriter {
   std::atomic<std::uint64_t> clipped_ = 0;
 };
 
-/// Bytes that coding one full tile takes beside the row itself, measured generously.
+/// Bytes that coding one full tile takes beside the row itself, an estimate.
 std::uint64_t tileCodingBytes(const Manifest& manifest, int basisPlanes);
 
 }  // namespace illum
