@@ -163,7 +163,7 @@ int tilesAtOnce(const Manifest& manifest, int basisPlanes, const Capture& captur
         std::max(capture.residentBytes() + own,
                  static_cast<std::uint64_t>(static_cast<double>(own) / (1 - kCaptureShare)));
     throw Error(
-        Fault::Input,
+        Fault::Machine,
         fmt::format("--max-memory {}: this object needs at least {} ({} for a row of tiles, "
                     "{} to code a tile, the rest for photographs and program); a smaller "
                     "--tile needs less",
