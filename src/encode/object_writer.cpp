@@ -58,6 +58,14 @@ fs::path withoutTrailingSlash(fs::path path) {
   return path.has_filename() ? path : path.parent_path();
 }
 
+bool holdsFiles(const fs::path& folder) {
+  std::error_code error;
+  for (fs::recursive_directory_iterator at(folder, error), end; !error && at != end;
+       at.increment(error))
+    if (!at->is_directory(error)) return true;
+  return false;
+}
+
 bool isEmptyFolder(const fs::path& folder) {
   std::error_code error;
   return fs::is_empty(folder, error) && !error;
@@ -204,7 +212,8 @@ void ObjectWriter::lock() {
 
 ObjectWriter::~ObjectWriter() {
   std::error_code ignored;
-  if (finished_ || !keep_) fs::remove_all(partial_, ignored);
+  const bool worthKeeping = keep_ && !finished_ && holdsFiles(partial_ / kEntriesFolder);
+  if (!worthKeeping) fs::remove_all(partial_, ignored);
   if (lock_ >= 0) ::close(lock_);
 }
 

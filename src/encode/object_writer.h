@@ -25,7 +25,7 @@ class ObjectWriter {
   /// Fault::Machine if the folder cannot be written or another process is writing it.
   ObjectWriter(std::filesystem::path out, ObjectForm form, std::string fingerprint, bool resume,
                bool force);
-  /// Removes the partial folder unless finish() succeeded or keepPartial() was called.
+  /// Removes the partial folder unless keepPartial() was called and an entry is in it.
   ~ObjectWriter();
   ObjectWriter(const ObjectWriter&) = delete;
   ObjectWriter& operator=(const ObjectWriter&) = delete;
@@ -33,7 +33,7 @@ class ObjectWriter {
   bool has(const std::string& entry) const;  ///< finished already (by an earlier, killed run)
   /// Replaces the entry if it exists. A machine's fault here keeps the partial folder.
   void add(const std::string& entry, std::span<const std::byte> bytes);
-  /// For signals and machine faults: what is done stays for --resume.
+  /// For signals and machine faults: what is done stays for --resume, if anything is.
   void keepPartial();
   /// Where scratch files may lie; removed at finish, and emptied when a writer resumes.
   std::filesystem::path scratchFolder() const;

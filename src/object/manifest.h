@@ -12,6 +12,7 @@
 #include "illum/basis_table.h"
 #include "illum/light_file.h"
 #include "illum/picture.h"
+#include "illum/transform.h"
 
 namespace illum {
 
@@ -26,14 +27,6 @@ enum class Response {
 enum class Curve {
   Linear,      ///< value = offset_k + step * code
   SignedSqrt,  ///< s = offset_k + step * code; value = sign(s) s^2
-};
-
-/// A rigid transform of group coordinates to object coordinates: row-major 3x3 rotation,
-/// translation.
-struct RigidTransform {
-  std::array<double, 9> rotation{1, 0, 0, 0, 1, 0, 0, 0, 1};
-  Vector3 translation;
-  friend bool operator==(const RigidTransform&, const RigidTransform&) = default;
 };
 
 struct BasisEntry {

@@ -1,0 +1,34 @@
+// Rigid transforms between frames. Named aFromB, so that chains read as they cancel.
+#pragma once
+
+#include <array>
+
+#include "illum/vector.h"
+
+namespace illum {
+
+/// p_a = rotation * p_b + translation. `rotation` is row-major, orthonormal, of determinant 1.
+struct RigidTransform {
+  std::array<double, 9> rotation{1, 0, 0, 0, 1, 0, 0, 0, 1};
+  Vector3 translation;
+
+  Vector3 point(Vector3 p) const;
+  /// Without the translation: displacements and directions.
+  Vector3 vector(Vector3 v) const;
+  Direction direction(Direction d) const;
+
+  friend bool operator==(const RigidTransform&, const RigidTransform&) = default;
+};
+
+RigidTransform inverse(const RigidTransform& aFromB);
+/// aFromB * bFromC is aFromC.
+RigidTransform operator*(const RigidTransform& aFromB, const RigidTransform& bFromC);
+
+/// The frame of a camera at `eye` whose -z points at `target` and whose y is as near to `up` as
+/// can be: objectFromCamera. Throws Error (Fault::Input) where that determines no frame.
+RigidTransform lookAt(Vector3 eye, Vector3 target, Vector3 up);
+
+/// Right-handed rotation about `axis` through the origin.
+RigidTransform rotationAbout(Direction axis, double radians);
+
+}  // namespace illum
