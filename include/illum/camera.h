@@ -2,6 +2,7 @@
 // (docs/conventions.md, "Views").
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <variant>
@@ -120,5 +121,23 @@ Vector3 pointAt(const ViewGeometry& view, PixelPosition position, double depth);
 /// The off-axis pinhole camera that sees exactly what a slab's view sees, seen from (u, v) in [0,
 /// 1].
 PinholeCamera pinholeOf(const LightSlab& slab, double u, double v);
+
+/// The slab of one view point that sees what `camera` sees, its window at `distance` from the eye.
+/// Its frame is the camera's, moved to the window.
+LightSlab slabOf(const PinholeCamera& camera, double distance);
+
+/// A row-major 3x4 matrix that takes (x, y, z, 1) of the object frame to (column * w, row * w, w),
+/// w being the depth: K [R | t] of computer vision.
+using ProjectionMatrix = std::array<double, 12>;
+ProjectionMatrix projectionMatrix(const PinholeCamera& camera);
+/// The inverse, whatever the matrix's scale. Throws Error (Fault::Input) for matrices that are
+/// singular, not finite or skewed (columns and rows not
+/// perpendicular within 1e-6).
+PinholeCamera pinholeFromProjection(const ProjectionMatrix& pixelsFromObject, Size size);
+
+/// A row-major 4x4 matrix for OpenGL: clip coordinates, z in [-w, w] for depths from `nearDepth` >
+/// 0 to `farDepth`.
+std::array<double, 16> clipFromObject(const PinholeCamera& camera, double nearDepth,
+                                      double farDepth);
 
 }  // namespace illum

@@ -180,4 +180,17 @@ PinholeCamera pinholeOf(const LightSlab& slab, double u, double v) {
   return camera;
 }
 
+LightSlab slabOf(const PinholeCamera& camera, double distance) {
+  LightSlab slab;
+  slab.objectFromSlab = camera.objectFromCamera;
+  slab.objectFromSlab.translation = camera.objectFromCamera.point({0, 0, -distance});
+  slab.distance = distance;
+  slab.uv = {0, 0, 0, 0};
+  slab.size = camera.size;
+  const double perPixelX = distance / camera.focalX, perPixelY = distance / camera.focalY;
+  slab.st = {-camera.centre.x * perPixelX, (camera.centre.y - camera.size.height) * perPixelY,
+             (camera.size.width - camera.centre.x) * perPixelX, camera.centre.y * perPixelY};
+  return slab;
+}
+
 }  // namespace illum
