@@ -1,14 +1,17 @@
-// Where samples come from: photographs now, rendered scenes later.
+// Where samples come from: photographs, or scenes that are rendered.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <filesystem>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "illum/camera.h"
 #include "illum/light_file.h"
 #include "illum/picture.h"
 #include "illum/progress.h"
@@ -22,18 +25,28 @@ enum class Transfer {
 };
 
 /// Samples under every light, as repeatable random access (group of views, rectangle) -> lights x
-/// pixels. Thread safe. A photograph stack has one group of one view.
+/// pixels. Thread safe. Every view is a group of its own; a stack of photographs has one.
 class Capture {
  public:
   virtual ~Capture() = default;
 
-  virtual Size size() const = 0;
+  /// At least one; all of the same kind of geometry, each name once. Sizes may differ.
+  virtual const std::vector<View>& views() const = 0;
+  int groups() const { return static_cast<int>(views().size()); }
+  /// Of one view, in pixels.
+  Size size(int group = 0) const {
+    return sizeOf(views().at(static_cast<std::size_t>(group)).geometry);
+  }
+
   virtual Transfer transfer() const = 0;
-  /// In the order of the light file. A sample is what the photograph shows divided by the
-  /// intensity.
+  /// In the order of the light file, directions in the object frame. A sample is what the
+  /// photograph shows divided by the intensity.
   virtual const std::vector<LightFileEntry>& lights() const = 0;
-  virtual int groups() const { return 1; }
   virtual bool hasMask() const = 0;
+  virtual bool hasDepth() const { return false; }
+  /// Whether samples are computed when they are read: each read costs far more than decoding would,
+  /// so nothing should be read twice that need not be. Reads may then come in any order.
+  virtual bool isRendered() const { return false; }
 
   /// samples[(3*l + c) * rectangle.pixels() + y * width + x], l-th of `lights` (indices), channel
   /// c. Unmasked (not premultiplied). Throws Error naming the photograph.
@@ -41,9 +54,15 @@ class Capture {
                     std::span<float> samples) const = 0;
   /// Coverage in [0, 1], rectangle.pixels() values.
   virtual void readMask(int group, const Rectangle& rectangle, std::span<float> coverage) const = 0;
+  /// Depth as camera.h's depthOf, rectangle.pixels() values; infinity where nothing is. Only where
+  /// hasDepth().
+  virtual void readDepth([[maybe_unused]] int group, [[maybe_unused]] const Rectangle& rectangle,
+                         std::span<float> depth) const {
+    std::fill(depth.begin(), depth.end(), std::numeric_limits<float>::infinity());
+  }
 
   /// Rows that one sequential pass reads at once most cheaply: readers go down the picture in steps
-  /// of this, whole width. size().height where order and height do not matter.
+  /// of this, whole width. At least the height of every view where order and height do not matter.
   virtual int bandRows() const = 0;
   /// Bytes that this capture holds by itself while it is read.
   virtual std::uint64_t residentBytes() const = 0;

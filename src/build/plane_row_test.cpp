@@ -10,10 +10,11 @@ namespace {
 // One light; every channel of a pixel is its column plus a hundredth of its row.
 class RampCapture final : public Capture {
  public:
-  explicit RampCapture(Size size, int band, bool mask) : size_(size), band_(band), mask_(mask) {
+  RampCapture(Size size, int band, bool mask)
+      : views_{{"ramp", OrthographicView{size}}}, band_(band), mask_(mask) {
     lights_.push_back({"a", {}, 1});
   }
-  Size size() const override { return size_; }
+  const std::vector<View>& views() const override { return views_; }
   Transfer transfer() const override { return Transfer::Linear; }
   const std::vector<LightFileEntry>& lights() const override { return lights_; }
   bool hasMask() const override { return mask_; }
@@ -27,7 +28,7 @@ class RampCapture final : public Capture {
   }
   void readMask(int, const Rectangle& r, std::span<float> coverage) const override {
     for (std::size_t i = 0; i < coverage.size(); ++i) {
-      coverage[i] = r.x + static_cast<int>(i) % r.width < size_.width / 2 ? 1.0f : 0.0f;
+      coverage[i] = r.x + static_cast<int>(i) % r.width < size().width / 2 ? 1.0f : 0.0f;
     }
   }
   int bandRows() const override { return band_; }
@@ -35,7 +36,7 @@ class RampCapture final : public Capture {
   std::string fingerprint() const override { return {}; }
 
  private:
-  Size size_;
+  std::vector<View> views_;
   int band_;
   bool mask_;
   std::vector<LightFileEntry> lights_;

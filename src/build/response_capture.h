@@ -11,10 +11,12 @@ namespace illum {
 class ResponseCapture final : public Capture {
  public:
   ResponseCapture(const Capture& inner, Transfer transfer) : inner_(inner), transfer_(transfer) {}
-  Size size() const override { return inner_.size(); }
+  const std::vector<View>& views() const override { return inner_.views(); }
   Transfer transfer() const override { return transfer_; }
   const std::vector<LightFileEntry>& lights() const override { return inner_.lights(); }
   bool hasMask() const override { return inner_.hasMask(); }
+  bool hasDepth() const override { return inner_.hasDepth(); }
+  bool isRendered() const override { return inner_.isRendered(); }
   void read(int group, const Rectangle& rectangle, std::span<const int> lights,
             std::span<float> samples) const override {
     inner_.read(group, rectangle, lights, samples);
@@ -27,6 +29,9 @@ class ResponseCapture final : public Capture {
   }
   void readMask(int group, const Rectangle& rectangle, std::span<float> coverage) const override {
     inner_.readMask(group, rectangle, coverage);
+  }
+  void readDepth(int group, const Rectangle& rectangle, std::span<float> depth) const override {
+    inner_.readDepth(group, rectangle, depth);
   }
   int bandRows() const override { return inner_.bandRows(); }
   std::uint64_t residentBytes() const override { return inner_.residentBytes(); }

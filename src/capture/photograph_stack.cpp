@@ -34,7 +34,7 @@ class PhotographStack final : public Capture {
  public:
   PhotographStack(StackParts parts, Progress& progress);
 
-  Size size() const override { return parts_.region.size(); }
+  const std::vector<View>& views() const override { return views_; }
   Transfer transfer() const override { return transfer_; }
   const std::vector<LightFileEntry>& lights() const override { return parts_.lights; }
   bool hasMask() const override { return !parts_.mask.empty() || hasAlpha_; }
@@ -62,6 +62,7 @@ class PhotographStack final : public Capture {
   std::string describe() const;
 
   StackParts parts_;
+  std::vector<View> views_;
   Progress& progress_;
   std::unique_ptr<BandStore> store_;
   std::vector<RowConverter> converters_;
@@ -72,7 +73,9 @@ class PhotographStack final : public Capture {
 };
 
 PhotographStack::PhotographStack(StackParts parts, Progress& progress)
-    : parts_(std::move(parts)), progress_(progress) {
+    : parts_(std::move(parts)),
+      views_{{"photograph", OrthographicView{parts_.region.size()}}},
+      progress_(progress) {
   transfer_ = parts_.photographs.front().colour.transfer;
   for (std::size_t i = 0; i < parts_.photographs.size(); ++i) {
     const Photograph& photograph = parts_.photographs[i];

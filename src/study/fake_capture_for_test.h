@@ -19,7 +19,10 @@ class FakeCapture : public Capture {
   using Coverage = std::function<float(int, int)>;
 
   FakeCapture(Size size, Transfer transfer, std::vector<LightFileEntry> lights, Sample sample)
-      : size_(size), transfer_(transfer), lights_(std::move(lights)), sample_(std::move(sample)) {}
+      : views_{{"fake", OrthographicView{size}}},
+        transfer_(transfer),
+        lights_(std::move(lights)),
+        sample_(std::move(sample)) {}
 
   FakeCapture& withMask(Coverage coverage) {
     coverage_ = std::move(coverage);
@@ -30,7 +33,7 @@ class FakeCapture : public Capture {
     return *this;
   }
 
-  Size size() const override { return size_; }
+  const std::vector<View>& views() const override { return views_; }
   Transfer transfer() const override { return transfer_; }
   const std::vector<LightFileEntry>& lights() const override { return lights_; }
   bool hasMask() const override { return static_cast<bool>(coverage_); }
@@ -51,7 +54,7 @@ class FakeCapture : public Capture {
       for (int x = rectangle.x; x < rectangle.right(); ++x) coverage[i++] = coverage_(x, y);
   }
 
-  int bandRows() const override { return bandRows_ > 0 ? bandRows_ : size_.height; }
+  int bandRows() const override { return bandRows_ > 0 ? bandRows_ : size().height; }
   std::uint64_t residentBytes() const override { return 0; }
   std::string fingerprint() const override { return "fake"; }
 
@@ -68,7 +71,7 @@ class FakeCapture : public Capture {
     reads_ += static_cast<int>(lights.size());
   }
 
-  Size size_;
+  std::vector<View> views_;
   Transfer transfer_;
   std::vector<LightFileEntry> lights_;
   Sample sample_;
