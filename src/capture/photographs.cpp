@@ -7,6 +7,7 @@
 #include "capture/lanes.h"
 #include "capture/light_file_search.h"
 #include "capture/mask_picture.h"
+#include "capture/photograph_list.h"
 #include "capture/photograph_match.h"
 #include "capture/photograph_stack.h"
 #include "capture/sample_rows.h"
@@ -21,25 +22,34 @@ namespace {
 constexpr std::uint64_t kBytesPerPhotograph = 16384;
 constexpr std::uint64_t kQuarter = 4;
 
-// A folder on its way to a stack.
-class StackOpener {
+// Which photograph of a folder was taken under which light.
+class ListMaker {
  public:
-  StackOpener(const std::filesystem::path& folder, const PhotographOptions& options,
-              Progress& progress)
-      : folder_(folder), options_(options), progress_(progress) {
-    if (options_.memoryBytes == 0) options_.memoryBytes = machineMemoryBytes() / kQuarter;
-    if (options_.scratch.empty()) options_.scratch = std::filesystem::temp_directory_path();
-  }
+  ListMaker(const std::filesystem::path& folder, const PhotographOptions& options,
+            Progress& progress)
+      : folder_(folder), options_(options), progress_(progress) {}
 
-  std::unique_ptr<Capture> open() {
+  PhotographList make() {
     checkFolder();
-    readLights();
-    readHeaders();
-    checkSizes();
-    chooseRegion();
-    readColours();
-    readMask();
-    return makeStack();
+    std::filesystem::path lightFile = options_.lightFile;
+    if (lightFile.empty()) {
+      const FoundLightFile found = findLightFile(folder_);
+      lightFile = found.file;
+      if (!found.remark.empty()) progress_.remark(found.remark);
+    }
+    LightFile lights = readLightFile(lightFile);
+    std::error_code missing;
+    const std::filesystem::path intensities = folder_ / "light_intensities.txt";
+    if (std::filesystem::exists(intensities, missing)) readLightIntensities(intensities, lights);
+    remark(lights.remarks);
+
+    std::vector<std::string> names = filesIn(folder_);
+    std::erase_if(names, [this](const std::string& name) { return isMask(name); });
+    const PhotographMatch match = matchPhotographs(lights, lightFile, names);
+    remark(match.remarks);
+    PhotographList list{folder_, {}, std::move(lights.entries)};
+    for (const std::string& name : match.names) list.files.push_back(folder_ / name);
+    return list;
   }
 
  private:
@@ -50,42 +60,52 @@ class StackOpener {
     if (!std::filesystem::is_directory(status)) {
       throw inputError(folder_, "a folder of photographs", "something else");
     }
-    if (options_.shrink < 1) {
-      throw Error(Fault::Usage, "shrink: expected a whole number of at least 1, found " +
-                                    std::to_string(options_.shrink));
-    }
   }
 
   void remark(const std::vector<std::string>& remarks) {
     for (const std::string& sentence : remarks) progress_.remark(sentence);
   }
 
-  void readLights() {
-    lightFile_ = options_.lightFile;
-    if (lightFile_.empty()) {
-      const FoundLightFile found = findLightFile(folder_);
-      lightFile_ = found.file;
-      if (!found.remark.empty()) progress_.remark(found.remark);
-    }
-    LightFile lights = readLightFile(lightFile_);
-    std::error_code missing;
-    const std::filesystem::path intensities = folder_ / "light_intensities.txt";
-    if (std::filesystem::exists(intensities, missing)) readLightIntensities(intensities, lights);
-    remark(lights.remarks);
-
-    std::vector<std::string> files = filesIn(folder_);
-    std::erase_if(files, [this](const std::string& name) { return isMask(name); });
-    const PhotographMatch match = matchPhotographs(lights, lightFile_, files);
-    remark(match.remarks);
-    for (const std::string& name : match.names)
-      photographs_.push_back({pool_->add(folder_ / name), {}, {}});
-    lights_ = std::move(lights.entries);
-  }
-
   bool isMask(const std::string& name) const {
     std::error_code missing;
     return !options_.mask.empty() &&
            std::filesystem::equivalent(folder_ / name, options_.mask, missing);
+  }
+
+  const std::filesystem::path& folder_;
+  const PhotographOptions& options_;
+  Progress& progress_;
+};
+
+// A list on its way to a stack.
+class StackOpener {
+ public:
+  StackOpener(PhotographList list, const PhotographOptions& options, Progress& progress)
+      : source_(std::move(list.source)),
+        options_(options),
+        progress_(progress),
+        lights_(std::move(list.lights)) {
+    if (options_.memoryBytes == 0) options_.memoryBytes = machineMemoryBytes() / kQuarter;
+    if (options_.scratch.empty()) options_.scratch = std::filesystem::temp_directory_path();
+    for (auto& file : list.files) photographs_.push_back({pool_->add(std::move(file)), {}, {}});
+  }
+
+  std::unique_ptr<Capture> open() {
+    checkOptions();
+    readHeaders();
+    checkSizes();
+    chooseRegion();
+    readColours();
+    readMask();
+    return makeStack();
+  }
+
+ private:
+  void checkOptions() const {
+    if (options_.shrink < 1) {
+      throw Error(Fault::Usage, "shrink: expected a whole number of at least 1, found " +
+                                    std::to_string(options_.shrink));
+    }
   }
 
   // Formats that are decoded as soon as they are opened are opened one at a time.
@@ -151,7 +171,7 @@ class StackOpener {
       progress_.remark(
           fmt::format("{}: {} embedded colour profiles are not looked at, because "
                       "the transfer function was given",
-                      folder_.string(), overridden));
+                      source_.string(), overridden));
     }
     checkTransfers();
   }
@@ -183,12 +203,12 @@ class StackOpener {
     request.otherBytes =
         kSharedTableBytes + mask_.samples().size() + kBytesPerPhotograph * photographs_.size();
     request.threads = availableThreads();
-    const BandPlan plan = planBands(photographs_, request, folder_.string());
+    const BandPlan plan = planBands(photographs_, request, source_.string());
     if (plan.scratchBytes > 0) {
       progress_.remark(fmt::format(
           "{}: photographs that cannot be read row by row go through a "
           "scratch file of {} in {}",
-          folder_.string(), textFromBytes(plan.scratchBytes), options_.scratch.string()));
+          source_.string(), textFromBytes(plan.scratchBytes), options_.scratch.string()));
     }
     StackParts parts;
     parts.pool = std::move(pool_);
@@ -204,11 +224,10 @@ class StackOpener {
     return makePhotographStack(std::move(parts), progress_);
   }
 
-  const std::filesystem::path& folder_;
+  std::filesystem::path source_;
   PhotographOptions options_;
   Progress& progress_;
   std::unique_ptr<FilePool> pool_ = std::make_unique<FilePool>();
-  std::filesystem::path lightFile_;
   std::vector<LightFileEntry> lights_;
   std::vector<Photograph> photographs_;
   ColourProfiles profiles_;
@@ -221,7 +240,12 @@ class StackOpener {
 
 std::unique_ptr<Capture> openPhotographs(const std::filesystem::path& folder,
                                          const PhotographOptions& options, Progress& progress) {
-  return StackOpener(folder, options, progress).open();
+  return openPhotographList(ListMaker(folder, options, progress).make(), options, progress);
+}
+
+std::unique_ptr<Capture> openPhotographList(PhotographList list, const PhotographOptions& options,
+                                            Progress& progress) {
+  return StackOpener(std::move(list), options, progress).open();
 }
 
 }  // namespace illum
