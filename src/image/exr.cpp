@@ -8,9 +8,11 @@
 #include <OpenEXR/ImfInputFile.h>
 #include <OpenEXR/ImfOutputFile.h>
 #include <OpenEXR/ImfStandardAttributes.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstring>
 #include <stdexcept>
 #include <string>
@@ -86,14 +88,16 @@ std::vector<const char*> channelsOf(const Imf::Header& header,
 
 /// A frame buffer that spreads named channels over the samples of a picture whose first pixel is
 /// `origin`.
-Imf::FrameBuffer frameBuffer(Picture& picture, const std::vector<const char*>& names,
+template <typename Sample>
+Imf::FrameBuffer frameBuffer(PictureOf<Sample>& picture, const std::vector<const char*>& names,
                              Imath::V2i origin) {
-  const std::size_t pixelBytes = static_cast<std::size_t>(picture.channels()) * sizeof(float);
+  constexpr Imf::PixelType kType = sizeof(Sample) == sizeof(float) ? Imf::FLOAT : Imf::HALF;
+  const std::size_t pixelBytes = static_cast<std::size_t>(picture.channels()) * sizeof(Sample);
   const std::size_t rowBytes = pixelBytes * static_cast<std::size_t>(picture.width());
   const Imath::Box2i window(origin, origin + Imath::V2i(picture.width() - 1, picture.height() - 1));
   Imf::FrameBuffer buffer;
   for (std::size_t c = 0; c < names.size(); ++c)
-    buffer.insert(names[c], Imf::Slice::Make(Imf::FLOAT, picture.samples().data() + c, window,
+    buffer.insert(names[c], Imf::Slice::Make(kType, picture.samples().data() + c, window,
                                              pixelBytes, rowBytes));
   return buffer;
 }
@@ -147,6 +151,38 @@ Picture readWhole(std::span<const std::byte> bytes, const std::filesystem::path&
   return picture;
 }
 
+PictureOf<half> halvesOf(const Picture& picture) {
+  PictureOf<half> halves(picture.size(), picture.channels());
+  std::transform(picture.samples().begin(), picture.samples().end(), halves.samples().begin(),
+                 [](float value) {
+                   if (std::isfinite(value) && std::abs(value) > HALF_MAX)
+                     throw Error(Fault::Input,
+                                 fmt::format("half precision: expected values to {}, found {}",
+                                             HALF_MAX, value));
+                   return half(value);
+                 });
+  return halves;
+}
+
+template <typename Sample>
+std::vector<std::byte> encodeSamples(const PictureOf<Sample>& picture, Imf::PixelType type) {
+  const auto names = channelNames(picture.channels() == 1, picture.channels() == 4);
+  Imf::Header header(picture.width(), picture.height());
+  header.compression() = Imf::ZIP_COMPRESSION;
+  Imf::addChromaticities(header, Imf::Chromaticities());
+  for (const char* name : names) header.channels().insert(name, Imf::Channel(type));
+
+  MemoryOutput stream;
+  {
+    Imf::OutputFile file(stream, header, 0);
+    // Only read from: the library has one kind of frame buffer for both ways.
+    file.setFrameBuffer(
+        frameBuffer(const_cast<PictureOf<Sample>&>(picture), names, Imath::V2i(0, 0)));
+    file.writePixels(picture.height());
+  }
+  return stream.take();
+}
+
 }  // namespace
 
 Picture decodeExr(std::span<const std::byte> bytes, const std::filesystem::path& source) {
@@ -161,21 +197,9 @@ Picture decodeExr(std::span<const std::byte> bytes, const std::filesystem::path&
   }
 }
 
-std::vector<std::byte> encodeExr(const Picture& linear) {
-  const auto names = channelNames(linear.channels() == 1, linear.channels() == 4);
-  Imf::Header header(linear.width(), linear.height());
-  header.compression() = Imf::ZIP_COMPRESSION;
-  Imf::addChromaticities(header, Imf::Chromaticities());
-  for (const char* name : names) header.channels().insert(name, Imf::Channel(Imf::FLOAT));
-
-  MemoryOutput stream;
-  {
-    Imf::OutputFile file(stream, header, 0);
-    // Only read from: the library has one kind of frame buffer for both ways.
-    file.setFrameBuffer(frameBuffer(const_cast<Picture&>(linear), names, Imath::V2i(0, 0)));
-    file.writePixels(linear.height());
-  }
-  return stream.take();
+std::vector<std::byte> encodeExr(const Picture& linear, ExrSamples samples) {
+  return samples == ExrSamples::Float ? encodeSamples(linear, Imf::FLOAT)
+                                      : encodeSamples(halvesOf(linear), Imf::HALF);
 }
 
 }  // namespace illum

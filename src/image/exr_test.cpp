@@ -71,6 +71,25 @@ TEST(Exr, KeepsEveryKindOfFloat) {
               std::bit_cast<std::uint32_t>(values[i]));
 }
 
+TEST(Exr, HalvesAreRoundedToNearest) {
+  Picture picture({3, 1}, 1);
+  picture.at(0, 0, 0) = 0.1F;
+  picture.at(1, 0, 0) = std::numeric_limits<float>::infinity();
+  picture.at(2, 0, 0) = -65504;
+  const auto bytes = encodeExr(picture, ExrSamples::Half);
+  const Picture back = decode(bytes);
+  EXPECT_EQ(back.at(0, 0, 0), 0.0999755859375F);
+  EXPECT_EQ(back.at(1, 0, 0), picture.at(1, 0, 0));
+  EXPECT_EQ(back.at(2, 0, 0), -65504);
+  picture.at(2, 0, 0) = 65536;
+  try {
+    encodeExr(picture, ExrSamples::Half);
+    ADD_FAILURE() << "65536 is no half";
+  } catch (const Error& error) {
+    EXPECT_STREQ(error.what(), "half precision: expected values to 65504, found 65536");
+  }
+}
+
 TEST(Exr, SameBytesEveryTime) {
   EXPECT_EQ(encodeExr(pattern({50, 40}, 3)), encodeExr(pattern({50, 40}, 3)));
 }

@@ -25,8 +25,12 @@ StoredPicture decodeJpeg(std::span<const std::byte> bytes, const std::filesystem
 /// Linear Rec.709.
 Picture decodeExr(std::span<const std::byte> bytes, const std::filesystem::path& source);
 
-/// float32; every sample as it is.
-std::vector<std::byte> encodeExr(const Picture& linear);
+/// How an OpenEXR file keeps samples. Halves have 11 significant bits, to 65504.
+enum class ExrSamples { Float, Half };
+
+/// Floats as they are; halves are rounded to nearest. Throws Error (Fault::Input) for what is
+/// beyond the range of halves, infinity excepted.
+std::vector<std::byte> encodeExr(const Picture& linear, ExrSamples samples = ExrSamples::Float);
 
 /// OpenEXR's densest schemes (DWA) keep 2 bytes of 64 equal samples and deflate them, at best to a
 /// 1032nd.
