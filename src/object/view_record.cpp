@@ -23,10 +23,8 @@ void checkRotation(const std::string& what, const RigidTransform& transform) {
   const RigidTransform back = inverse(transform);
   const RigidTransform product = back * transform;
   const auto identity = RigidTransform().rotation;
-  double error = 0;
-  for (std::size_t i = 0; i < 9; ++i) {
-    error = std::max(error, std::abs(product.rotation[i] - identity[i]));
-  }
+  double error = 0;  // added up, so that NaN stays
+  for (std::size_t i = 0; i < 9; ++i) error += std::abs(product.rotation[i] - identity[i]);
   const Vector3 x = transform.vector({1, 0, 0}), y = transform.vector({0, 1, 0});
   const Vector3 z = transform.vector({0, 0, 1});
   if (!(error <= kRotationError)) refuse(what, "a rotation", "another matrix");
