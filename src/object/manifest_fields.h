@@ -1,58 +1,25 @@
-// One description of each record of object.json, `describe`, drives reading, writing and checking.
-// A visitor (object/json_visitors.h) has one function for each kind of field:
-//
-//   integer, number, flag, text, choice     scalars, with their limits
-//   triple, numbers, integers               lists of fixed or bounded length
-//   record, records                         a described record, or a list of them
+// One description of each record of object.json, `describe`, drives reading, writing and checking
+// (json/field.h).
 //
 // To extend the format within version 1: add a field as `optional("name")` whose default means what
 // older objects meant, and raise kMinor. Anything that older readers must not ignore needs a new
 // major.
 #pragma once
 
-#include <array>
 #include <cstddef>
-#include <initializer_list>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
+#include "json/field.h"
 #include "object/entry_source.h"
 #include "object/manifest.h"
 
-namespace illum::manifestfile {
+namespace illum::fields {
 
 inline constexpr int kMajor = 1, kMinor = 0;
 inline constexpr std::string_view kFormat = "illum";
-inline constexpr double kHuge = 1e30;  // of any number; leaves room for products of two in double
-inline constexpr std::size_t kMaxTextBytes = 4096;
 inline constexpr std::size_t kMaxProvenance = 1000;
-
-/// Of a field.
-struct Name {
-  std::string_view text;
-  bool optional = false;
-  constexpr Name(const char* t) : text(t) {}  // a plain literal names a required field
-  constexpr Name(std::string_view t, bool o) : text(t), optional(o) {}
-};
-/// A field that may be missing and then keeps its default.
-constexpr Name optional(std::string_view text) {
-  return {text, true};
-}
-
-template <typename Real>
-using Triple = std::array<Real*, 3>;
-template <typename Enum>
-using Choices = std::initializer_list<std::pair<Enum, std::string_view>>;
-
-/// Three coordinates or channels, in the file a list.
-inline Triple<double> coordinatesOf(Vector3& v) {
-  return {&v.x, &v.y, &v.z};
-}
-inline Triple<float> channelsOf(LinearRgb& colour) {
-  return {&colour.r, &colour.g, &colour.b};
-}
 
 template <typename Visitor>
 void describe(Visitor& v, Size& size) {
@@ -154,4 +121,4 @@ void describe(Visitor& v, FileManifest& file) {
   v.integers(optional("heldOut"), m.heldOut, 0, kMaxLights - 1, 0, kMaxLights);
   v.records(optional("provenance"), file.provenance, 0, kMaxProvenance);
 }
-}  // namespace illum::manifestfile
+}  // namespace illum::fields

@@ -1,42 +1,19 @@
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <utility>
 
 #include "illum/error.h"
+#include "json/json_text.h"
+#include "json/visitors.h"
 #include "object/entry_name.h"
-#include "object/json_visitors.h"
 #include "object/manifest_fields.h"
 
 namespace illum {
 namespace {
 
-using namespace manifestfile;
-
-/// What nests and is long goes over several lines, all else on one.
-void print(const OrderedJson& node, int depth, std::string& out) {
-  constexpr std::size_t kLine = 100;
-  const std::string compact = node.dump(-1, ' ', false, OrderedJson::error_handler_t::replace);
-  const bool nests = node.is_structured() &&
-                     std::any_of(node.begin(), node.end(),
-                                 [](const OrderedJson& child) { return child.is_structured(); });
-  if (!nests || compact.size() <= kLine) {
-    out += compact;
-    return;
-  }
-  const std::string indent(2 * static_cast<std::size_t>(depth + 1), ' ');
-  out += node.is_object() ? "{" : "[";
-  const char* separator = "\n";
-  for (auto child = node.begin(); child != node.end(); ++child) {
-    out += separator + indent;
-    if (node.is_object()) out += OrderedJson(child.key()).dump() + ": ";
-    print(*child, depth + 1, out);
-    separator = ",\n";
-  }
-  out += '\n' + indent.substr(2) + (node.is_object() ? "}" : "]");
-}
+using namespace fields;
 
 void checkVersion(const Json& root, const FieldPath& top, Manifest& manifest) {
   const auto format = root.find("format");
@@ -98,9 +75,7 @@ std::string writeManifest(const Manifest& manifest) {
   describe(writer, file);
   checkGeometry(manifest);
   checkConsistency(manifest);
-  std::string text;
-  print(writer.node(), 0, text);
-  text += '\n';
+  std::string text = jsonText(writer.node());
   if (text.size() > kMaxManifestBytes)
     throw Error(Fault::Input,
                 fmt::format("expected at most {} bytes, found {}", kMaxManifestBytes, text.size()));

@@ -1,10 +1,10 @@
-// The fields of views in JSON, for object/json_visitors.h.
+// The fields of views in JSON, for json/visitors.h.
 #pragma once
 
 #include "object/manifest_fields.h"
 #include "object/view_record.h"
 
-namespace illum::manifestfile {
+namespace illum::fields {
 
 inline constexpr int kMaxSlabSide = 1024;  // view points in a row of a slab
 
@@ -79,4 +79,4 @@ void describe(Visitor& v, ViewRecord& view) {
   }
 }
 
-}  // namespace illum::manifestfile
+}  // namespace illum::fields

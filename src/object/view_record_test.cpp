@@ -7,14 +7,14 @@
 #include <functional>
 
 #include "illum/error.h"
-#include "object/json_visitors.h"
+#include "json/visitors.h"
 #include "object/view_fields.h"
 
 namespace illum {
 namespace {
 
 using testing::HasSubstr;
-using namespace manifestfile;
+using namespace fields;
 
 std::vector<ViewGeometry> everyKind() {
   LightSlab slab;

@@ -1,4 +1,4 @@
-// Reading and writing described records (object/manifest_fields.h) as JSON.
+// Reading and writing described records (json/field.h) as JSON.
 #pragma once
 
 #include <fmt/format.h>
@@ -12,9 +12,9 @@
 #include <vector>
 
 #include "illum/error.h"
-#include "object/manifest_fields.h"
+#include "json/field.h"
 
-namespace illum::manifestfile {
+namespace illum::fields {
 
 using Json = nlohmann::json;
 using OrderedJson = nlohmann::ordered_json;
@@ -294,4 +294,4 @@ class Writer {
   FieldPath path_;
   OrderedJson node_ = OrderedJson::object();
 };
-}  // namespace illum::manifestfile
+}  // namespace illum::fields
