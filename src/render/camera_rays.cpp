@@ -38,8 +38,7 @@ BeamRay CameraRays::through(int x, int y, const SampleSequence& sequence) const 
   const double width = mean(across.origin - ray.origin, down.origin - ray.origin);
   const double spread = mean(across.direction - ray.direction, down.direction - ray.direction);
   // Single precision has to serve from here on: skip the empty way to the scene.
-  const double skipped =
-      std::max(0.0, dot(centre_ - ray.origin, ray.direction) - 1.001 * radius_);
+  const double skipped = std::max(0.0, dot(centre_ - ray.origin, ray.direction) - 1.001 * radius_);
   return {float3(ray.origin + skipped * ray.direction), float3(ray.direction),
           static_cast<float>(width + spread * skipped), static_cast<float>(spread)};
 }

@@ -14,8 +14,8 @@ struct DirectionBatch {
   alignas(64) std::array<float, kBatch> x, y, z;
 };
 
-/// What a BSDF says of a batch: value times the cosine, colour by colour, and the density with which
-/// `sample` draws the direction.
+/// What a BSDF says of a batch: value times the cosine, colour by colour, and the density with
+/// which `sample` draws the direction.
 struct BsdfBatch {
   alignas(64) std::array<float, kBatch> r, g, b, density;
 };

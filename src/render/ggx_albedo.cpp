@@ -102,8 +102,7 @@ float hemisphericalMean(const AlbedoCurve& curve) {
 
 Float3 visibleNormal(Float3 toViewer, float alpha, std::array<float, 2> uniform) {
   // As in the paper's appendix: stretch to a hemisphere, draw from its projection, shrink back.
-  const Float3 stretched =
-      normalised({alpha * toViewer.x, alpha * toViewer.y, toViewer.z});
+  const Float3 stretched = normalised({alpha * toViewer.x, alpha * toViewer.y, toViewer.z});
   const float radius = std::sqrt(uniform[0]);
   const float angle = 2 * std::numbers::pi_v<float> * uniform[1];
   const float across = radius * std::cos(angle);

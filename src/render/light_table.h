@@ -59,7 +59,7 @@ class LightTable {
 
  private:
   struct Batch {
-    DirectionBatch centre, across, up;            // each disc's frame
+    DirectionBatch centre, across, up;           // each disc's frame
     std::array<float, kBatch> turnA{}, turnB{};  // of `uniform`
   };
 

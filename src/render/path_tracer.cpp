@@ -82,7 +82,9 @@ bool PathTracer::trace(const BeamRay& beam, const SampleSequence& sequence, Ligh
     bool goesOn = false;
     switch (point.kind) {
       case Material::Kind::Mirror:
-      case Material::Kind::Glass: goesOn = ideal(point, path); break;
+      case Material::Kind::Glass:
+        goesOn = ideal(point, path);
+        break;
       case Material::Kind::Hair:
         goesOn = scatter(point, HairBsdf(point, -path.beam.direction), path, sums);
         break;
@@ -126,8 +128,7 @@ bool PathTracer::ideal(const SurfacePoint& point, Path& path) const {
 }
 
 template <typename Bsdf>
-bool PathTracer::scatter(const SurfacePoint& point, const Bsdf& bsdf, Path& path,
-                         LightSums& sums) {
+bool PathTracer::scatter(const SurfacePoint& point, const Bsdf& bsdf, Path& path, LightSums& sums) {
   bool alsoDrawn = false;
   if constexpr (requires { bsdf.isGlossy(); }) alsoDrawn = lights_.areDiscs() && bsdf.isGlossy();
   addLights(point, bsdf, path, alsoDrawn, sums);
@@ -160,9 +161,18 @@ void PathTracer::addLights(const SurfacePoint& point, const Bsdf& bsdf, const Pa
       const Float3 direction{directions_.x[i], directions_.y[i], directions_.z[i]};
       const Float3 origin = originFor(point, direction);
       ShadowRay& ray = rays_[rays++];
-      ray = {origin.x,    origin.y,    origin.z, startAfter(point, direction),
-             direction.x, direction.y, direction.z, 0,
-             std::numeric_limits<float>::infinity(), ~0u, static_cast<std::uint32_t>(i), 0};
+      ray = {origin.x,
+             origin.y,
+             origin.z,
+             startAfter(point, direction),
+             direction.x,
+             direction.y,
+             direction.z,
+             0,
+             std::numeric_limits<float>::infinity(),
+             ~0u,
+             static_cast<std::uint32_t>(i),
+             0};
       shares_[i] = alsoDrawn ? share(lights_.density(), values_.density[i]) : 1;
     }
     if (tree_.hasGlass()) depths_.fill({});
@@ -185,8 +195,7 @@ void PathTracer::addLights(const SurfacePoint& point, const Bsdf& bsdf, const Pa
 // The path has left the scene: what it sees there.
 void PathTracer::addDiscs(const Path& path, LightSums& sums) const {
   if (!lights_.areDiscs() || path.discDensity == 0) return;
-  const float part =
-      std::isinf(path.discDensity) ? 1 : share(path.discDensity, lights_.density());
+  const float part = std::isinf(path.discDensity) ? 1 : share(path.discDensity, lights_.density());
   const LinearRgb value = (part * lights_.radiance()) * path.throughput;
   lights_.forDiscsAt(path.beam.direction, [&](std::size_t l) { sums.add(l, value); });
 }

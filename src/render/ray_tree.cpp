@@ -40,10 +40,9 @@ void skipHoles(const RTCFilterFunctionNArguments* arguments) {
   const unsigned n = arguments->N;
   for (unsigned i = 0; i < n; ++i) {
     if (arguments->valid[i] == 0) continue;
-    if (filterOf(arguments).isHole(RTCHitN_geomID(arguments->hit, n, i),
-                                   RTCHitN_primID(arguments->hit, n, i),
-                                   RTCHitN_u(arguments->hit, n, i),
-                                   RTCHitN_v(arguments->hit, n, i))) {
+    if (filterOf(arguments).isHole(
+            RTCHitN_geomID(arguments->hit, n, i), RTCHitN_primID(arguments->hit, n, i),
+            RTCHitN_u(arguments->hit, n, i), RTCHitN_v(arguments->hit, n, i))) {
       arguments->valid[i] = 0;
     }
   }
@@ -107,9 +106,9 @@ RTCGeometry curveGeometry(RTCDevice device, const CurveSet& curves,
                           std::span<const std::uint32_t> segments) {
   RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_ROUND_BSPLINE_CURVE);
   constexpr std::size_t kPoint = sizeof(curves.points[0]);
-  std::memcpy(newBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT4, kPoint,
-                        curves.points.size()),
-              curves.points.data(), kPoint * curves.points.size());
+  std::memcpy(
+      newBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT4, kPoint, curves.points.size()),
+      curves.points.data(), kPoint * curves.points.size());
   std::memcpy(newBuffer(geometry, RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT, sizeof(std::uint32_t),
                         segments.size()),
               segments.data(), segments.size_bytes());
@@ -198,13 +197,15 @@ std::optional<Hit> RayTree::nearest(Float3 origin, Float3 direction, float start
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
   RTCRayHit query{};
-  query.ray = {origin.x, origin.y, origin.z, start, direction.x, direction.y, direction.z, 0,
-               std::numeric_limits<float>::infinity(), ~0u, 0, 0};
+  query.ray = {origin.x,    origin.y,    origin.z,
+               start,       direction.x, direction.y,
+               direction.z, 0,           std::numeric_limits<float>::infinity(),
+               ~0u,         0,           0};
   query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
   rtcIntersect1(state_->scene, &context, &query);
   if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
-  return Hit{query.hit.geomID, query.hit.primID, query.hit.u, query.hit.v, query.ray.tfar,
-             {query.hit.Ng_x, query.hit.Ng_y, query.hit.Ng_z}};
+  return Hit{query.hit.geomID, query.hit.primID, query.hit.u,
+             query.hit.v,      query.ray.tfar,   {query.hit.Ng_x, query.hit.Ng_y, query.hit.Ng_z}};
 }
 
 void RayTree::shadows(std::span<ShadowRay> rays, std::span<OpticalDepth> depths) const {

@@ -22,17 +22,18 @@ struct SurfaceLobes {
   Float3 geometricNormal, normal, toViewer;
   float viewerCosine = 1;
   float alphaSquared = 1;
-  float viewerShadowing = 1;       ///< sqrt(alpha^2 + (1 - alpha^2) cosine^2) of the viewer
-  LinearRgb facing;                ///< reflectance of a microfacet seen head on
-  LinearRgb matt;                  ///< of the base, all but the factor of the light's angle
-  AlbedoCurve passes;              ///< what gets through the microfacets, by the light's cosine
-  float glossyShare = 1;           ///< of samples drawn from the microfacets
+  float viewerShadowing = 1;  ///< sqrt(alpha^2 + (1 - alpha^2) cosine^2) of the viewer
+  LinearRgb facing;           ///< reflectance of a microfacet seen head on
+  float grazing = 1;          ///< and seen along it
+  LinearRgb matt;             ///< of the base, all but the factor of the light's angle
+  AlbedoCurve passes;         ///< what gets through the microfacets, by the light's cosine
+  float glossyShare = 1;      ///< of samples drawn from the microfacets
 };
 
 /// f = D V F + matt(viewer, light). The microfacets are GGX (Walter, Marschner, Li, Torrance 2007)
-/// with height-correlated shadowing (Heitz 2014) and Schlick's Fresnel term. The base gets what they
-/// let through, on both ways, so that all together reflect at most what arrives and light may go
-/// either way (Kelemen and Szirmay-Kalos 2001, equation 6).
+/// with height-correlated shadowing (Heitz 2014) and Schlick's Fresnel term. The base gets what
+/// they let through, on both ways, so that all together reflect at most what arrives and light may
+/// go either way (Kelemen and Szirmay-Kalos 2001, equation 6).
 class SurfaceBsdf {
  public:
   SurfaceBsdf(const SurfacePoint& point, Float3 toViewer);

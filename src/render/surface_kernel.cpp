@@ -56,6 +56,7 @@ void evaluateLobesHere(const SurfaceLobes& lobes, const DirectionBatch& toLight,
   const auto alpha2 = hn::Set(d, lobes.alphaSquared), rest = hn::Sub(one, alpha2);
   const auto viewerCosine = hn::Set(d, lobes.viewerCosine);
   const auto viewerShadowing = hn::Set(d, lobes.viewerShadowing);
+  const auto grazing = hn::Set(d, lobes.grazing);
   // The density of visible normals, seen as directions of light: D / (2 (cosine + shadowing)).
   const float glossyDensity =
       lobes.glossyShare * 0.5f / (lobes.viewerCosine + lobes.viewerShadowing);
@@ -88,16 +89,15 @@ void evaluateLobesHere(const SurfaceLobes& lobes, const DirectionBatch& toLight,
         hn::MulAdd(lightCosine, viewerShadowing, hn::Mul(viewerCosine, lightShadowing));
     const auto facets = hn::Mul(distribution, hn::Div(hn::Set(d, 0.5f), both));
 
-    // F = facing + (1 - facing) (1 - cos(h, viewer))^5.
-    const auto away = hn::Max(
-        zero, hn::Sub(one, hn::Mul(hn::Set(d, 0.5f), hn::Sqrt(halfSquared))));
+    // F = facing + (grazing - facing) (1 - cos(h, viewer))^5.
+    const auto away = hn::Max(zero, hn::Sub(one, hn::Mul(hn::Set(d, 0.5f), hn::Sqrt(halfSquared))));
     const auto away2 = hn::Mul(away, away);
     const auto away5 = hn::Mul(hn::Mul(away2, away2), away);
 
     const auto through = onCurve(d, lobes.passes, lightCosine);
     const auto store = [&](float facing, float matt, float* to) {
       const auto f0 = hn::Set(d, facing);
-      const auto fresnel = hn::MulAdd(hn::Sub(one, f0), away5, f0);
+      const auto fresnel = hn::MulAdd(hn::Sub(grazing, f0), away5, f0);
       const auto value = hn::MulAdd(facets, fresnel, hn::Mul(hn::Set(d, matt), through));
       hn::Store(hn::IfThenElseZero(lit, hn::Mul(value, lightCosine)), d, to + i);
     };

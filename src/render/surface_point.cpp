@@ -45,8 +45,7 @@ struct Triangle {
   std::array<std::uint32_t, 3> corners;
   std::array<Float3, 3> positions;
 
-  Triangle(const TriangleMesh& of, std::uint32_t index)
-      : mesh(of), corners(of.triangles[index]) {
+  Triangle(const TriangleMesh& of, std::uint32_t index) : mesh(of), corners(of.triangles[index]) {
     for (std::size_t k = 0; k < 3; ++k) positions[k] = float3(of.positions[corners[k]]);
   }
   Float3 position(Barycentric at) const {
@@ -72,8 +71,8 @@ struct Triangle {
   }
 };
 
-// How texture coordinates lie in space: p = dpdu * u + dpdv * v along the triangle, and the gradients
-// of u and v within it. Zero where the coordinates are degenerate.
+// How texture coordinates lie in space: p = dpdu * u + dpdv * v along the triangle, and the
+// gradients of u and v within it. Zero where the coordinates are degenerate.
 struct TextureFrame {
   Float3 dpdu, dpdv, gradientU, gradientV;
 
@@ -123,8 +122,7 @@ Float3 mappedNormal(const Texel& texel, const TextureFrame& frame, Float3 normal
   const Float3 tangent = normalised(along);
   const Float3 across = cross(normal, tangent);
   const float side = dot(across, frame.dpdv) < 0 ? -1.0f : 1.0f;
-  const Float3 mapped =
-      inFrame.x * tangent + (side * inFrame.y) * across + inFrame.z * normal;
+  const Float3 mapped = inFrame.x * tangent + (side * inFrame.y) * across + inFrame.z * normal;
   return length(mapped) > 1e-3f ? normalised(mapped) : normal;
 }
 
@@ -151,8 +149,9 @@ void checkMesh(const TriangleMesh& mesh, std::size_t materials) {
   const std::size_t count = mesh.positions.size();
   const auto fits = [&](std::size_t size) { return size == 0 || size == count; };
   if (mesh.material < 0 || static_cast<std::size_t>(mesh.material) >= materials) {
-    throw brokenMesh("mesh", mesh.name, "expected one of the scene's materials, found number " +
-                                            std::to_string(mesh.material));
+    throw brokenMesh(
+        "mesh", mesh.name,
+        "expected one of the scene's materials, found number " + std::to_string(mesh.material));
   }
   if (!fits(mesh.normals.size()) || !fits(mesh.texcoords.size()) || !fits(mesh.colours.size())) {
     throw brokenMesh("mesh", mesh.name,
@@ -179,9 +178,9 @@ void checkMesh(const TriangleMesh& mesh, std::size_t materials) {
 void checkCurves(const CurveSet& curves, std::size_t materials) {
   const auto points = static_cast<std::uint32_t>(curves.points.size());
   if (curves.material < 0 || static_cast<std::size_t>(curves.material) >= materials) {
-    throw brokenMesh("curves", curves.name,
-                     "expected one of the scene's materials, found number " +
-                         std::to_string(curves.material));
+    throw brokenMesh(
+        "curves", curves.name,
+        "expected one of the scene's materials, found number " + std::to_string(curves.material));
   }
   if (!curves.colours.empty() && curves.colours.size() != curves.firstPoints.size()) {
     throw brokenMesh("curves", curves.name, "expected as many colours as curves");
@@ -205,9 +204,9 @@ void checkMaterial(const Material& material, std::size_t textures) {
   for (const int texture :
        {material.baseColourTexture, material.metallicRoughnessTexture, material.normalTexture}) {
     if (texture < -1 || texture >= static_cast<int>(textures)) {
-      throw brokenMesh("material", material.name,
-                       "expected one of the scene's textures, found number " +
-                           std::to_string(texture));
+      throw brokenMesh(
+          "material", material.name,
+          "expected one of the scene's textures, found number " + std::to_string(texture));
     }
   }
   const bool finite = isFinite(material.baseColour) && std::isfinite(material.metallic) &&
@@ -275,8 +274,8 @@ SurfacePoint SceneSurfaces::onTriangle(const Hit& hit, const BeamRay& beam) cons
 
   const TextureFrame frame(triangle, outward);
   const TexturePoint texcoord = triangle.texcoord(where);
-  const TextureFootprint footprint = footprintOf(frame, outward, beam.direction,
-                                                 beam.width + beam.spread * hit.distance);
+  const TextureFootprint footprint =
+      footprintOf(frame, outward, beam.direction, beam.width + beam.spread * hit.distance);
   const auto texelOf = [&](int texture) {
     return textures_[static_cast<std::size_t>(texture)].mean(texcoord, footprint);
   };
@@ -362,8 +361,7 @@ RayTree::Filtered SceneSurfaces::filtered() const {
   return filtered;
 }
 
-bool SceneSurfaces::isHole(std::uint32_t geometry, std::uint32_t triangle, float u,
-                           float v) const {
+bool SceneSurfaces::isHole(std::uint32_t geometry, std::uint32_t triangle, float u, float v) const {
   const TriangleMesh& mesh = scene_.meshes[geometry];
   const Material& material = scene_.materials[static_cast<std::size_t>(mesh.material)];
   if (!(material.alphaCutoff > 0) || material.baseColourTexture < 0) return false;

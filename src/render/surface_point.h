@@ -16,13 +16,13 @@ struct SurfacePoint {
   /// Unit normals on the side from which the ray came. What the ray sees is never below the
   /// horizon of either.
   Float3 geometricNormal, shadingNormal;
-  bool fromBehind = false;   ///< the ray came from inside
-  Float3 tangent;            ///< of hair, unit length
-  float clearance = 0;       ///< how far from `position` a new ray is free of rounding errors
+  bool fromBehind = false;  ///< the ray came from inside
+  Float3 tangent;           ///< of hair, unit length
+  float clearance = 0;      ///< how far from `position` a new ray is free of rounding errors
   float hairRadius = 0;
-  float beamWidth = 0;       ///< of the beam that arrives
+  float beamWidth = 0;  ///< of the beam that arrives
   Material::Kind kind = Material::Kind::Surface;
-  LinearRgb colour;          ///< in [0, 1]
+  LinearRgb colour;  ///< in [0, 1]
   float metallic = 0, roughness = 1, specular = 0.5f, ior = 1.5f;
 
   /// Where a ray begins that leaves on the side of `direction`.
@@ -55,8 +55,8 @@ class SceneSurfaces final : public SurfaceFilter {
 
   Scene scene_;  // its textures are empty: the pyramids hold them
   std::vector<TexturePyramid> textures_;
-  std::vector<std::vector<std::uint32_t>> segments_;         // of each set of curves
-  std::vector<std::vector<std::uint32_t>> curveOfSegment_;   // where curves have colours
+  std::vector<std::vector<std::uint32_t>> segments_;        // of each set of curves
+  std::vector<std::vector<std::uint32_t>> curveOfSegment_;  // where curves have colours
 };
 
 }  // namespace illum

@@ -57,7 +57,8 @@ Texel texel(const Picture& picture, int x, int y) {
       const float grey = picture.at(x, y, 0);
       return {grey, grey, grey, 1};
     }
-    case 3: return {picture.at(x, y, 0), picture.at(x, y, 1), picture.at(x, y, 2), 1};
+    case 3:
+      return {picture.at(x, y, 0), picture.at(x, y, 1), picture.at(x, y, 2), 1};
     default:
       return {picture.at(x, y, 0), picture.at(x, y, 1), picture.at(x, y, 2), picture.at(x, y, 3)};
   }
@@ -113,20 +114,21 @@ Texel TexturePyramid::trilinear(float level, TexturePoint at) const {
 Texel TexturePyramid::mean(TexturePoint at, const TextureFootprint& footprint) const {
   const auto width = static_cast<float>(levels_[0].width());
   const auto height = static_cast<float>(levels_[0].height());
-  const auto texels = [&](TexturePoint axis) { return std::hypot(axis.u * width, axis.v * height); };
+  const auto texels = [&](TexturePoint axis) {
+    return std::hypot(axis.u * width, axis.v * height);
+  };
   TexturePoint longer = footprint.major, shorter = footprint.minor;
   if (texels(longer) < texels(shorter)) std::swap(longer, shorter);
   const float longest = texels(longer);
   const float ratio = longest / std::max(texels(shorter), 0.5f);
   const int taps = ratio < kMostTaps ? std::max(1, static_cast<int>(std::ceil(ratio))) : kMostTaps;
   // A level's texel is as wide as a tap's share of the ellipse (twice the half axis).
-  const float level = std::log2(2 * std::max(longest / static_cast<float>(taps),
-                                             std::min(texels(shorter), longest)));
+  const float level = std::log2(
+      2 * std::max(longest / static_cast<float>(taps), std::min(texels(shorter), longest)));
   Texel sum{};
   for (int i = 0; i < taps; ++i) {
     const float along = (2 * static_cast<float>(i) + 1) / static_cast<float>(taps) - 1;
-    const Texel one =
-        trilinear(level, {at.u + along * longer.u, at.v + along * longer.v});
+    const Texel one = trilinear(level, {at.u + along * longer.u, at.v + along * longer.v});
     for (std::size_t c = 0; c < 4; ++c) sum[c] += one[c] / static_cast<float>(taps);
   }
   return sum;
