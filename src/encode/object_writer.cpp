@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "core/files.h"
+#include "core/rename.h"
 #include "encode/archive_writer.h"
 #include "illum/error.h"
 #include "object/entry_name.h"
@@ -110,30 +111,6 @@ void removeTemporaries(const fs::path& entries) {
       strangers.push_back(at->path());
   if (error) throw machineError(entries, "list", error);
   for (const fs::path& file : strangers) removeTree(file);
-}
-
-/// Renames without replacing anything, in one step where the file system can.
-void renameToNew(const fs::path& from, const fs::path& to) {
-  if (::renameat2(AT_FDCWD, from.c_str(), AT_FDCWD, to.c_str(), RENAME_NOREPLACE) == 0) return;
-  if (errno == EINVAL || errno == ENOSYS) {
-    if (isThere(to))
-      errno = EEXIST;
-    else if (::rename(from.c_str(), to.c_str()) == 0)
-      return;
-  }
-  if (errno == EEXIST) throw inputError(to, "no file there yet (--force replaces it)", "one");
-  throw machineError(to, "write", {errno, std::generic_category()});
-}
-
-/// Puts `from` in the place of `to`, a folder or a file, with the old one moved to `aside`.
-void exchange(const fs::path& from, const fs::path& to, const fs::path& aside) {
-  if (::renameat2(AT_FDCWD, from.c_str(), AT_FDCWD, to.c_str(), RENAME_EXCHANGE) == 0) return;
-  if (errno != EINVAL && errno != ENOSYS)
-    throw machineError(to, "replace", {errno, std::generic_category()});
-  std::error_code error;
-  fs::rename(to, aside, error);
-  if (!error) fs::rename(from, to, error);
-  if (error) throw machineError(to, "replace", error);
 }
 
 std::string requiredText(const fs::path& entries) {

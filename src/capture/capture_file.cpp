@@ -1,0 +1,189 @@
+#include "capture/capture_file.h"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "illum/error.h"
+#include "object/json_visitors.h"
+#include "object/view_fields.h"
+
+namespace illum {
+namespace {
+
+using namespace manifestfile;
+
+constexpr std::string_view kCaptureFormat = "illum-capture";
+constexpr int kCaptureMajor = 1, kCaptureMinor = 0;
+constexpr int kMaxViews = 65536;
+
+struct ViewEntry {
+  std::string name, photographs, mask, depth;
+  ViewRecord geometry;
+};
+
+struct FileRecord {
+  std::string generator;
+  bool rendered = false;
+  std::vector<LightRecord> lights;
+  std::vector<LightSlab> slabs;
+  std::vector<ViewEntry> views;
+};
+
+// Found by argument-dependent lookup of the visitors, which live with their records.
+template <typename Visitor>
+void describe(Visitor& v, ViewEntry& entry) {
+  v.text("name", entry.name);
+  v.record("geometry", entry.geometry);
+  v.text("photographs", entry.photographs);
+  v.text(optional("mask"), entry.mask);
+  v.text(optional("depth"), entry.depth);
+}
+
+template <typename Visitor>
+void describe(Visitor& v, FileRecord& file) {
+  v.text(optional("generator"), file.generator);
+  v.flag(optional("rendered"), file.rendered);
+  v.records("lights", file.lights, 1, kMaxLights);
+  v.records(optional("slabs"), file.slabs, 0, kMaxViews);
+  v.records("views", file.views, 1, kMaxViews);
+}
+
+void checkVersion(const Json& root, const FieldPath& top) {
+  const auto format = root.find("format");
+  if (!root.is_object() || format == root.end() || *format != kCaptureFormat) {
+    throw FieldPath(&top, "format")
+        .wrong(fmt::format("'{}'", kCaptureFormat),
+               !root.is_object() || format == root.end() ? "none" : shown(*format));
+  }
+  const auto version = root.find("version");
+  if (version == root.end() || !version->is_array() || version->size() != 2 ||
+      !(*version)[0].is_number_unsigned()) {
+    throw FieldPath(&top, "version")
+        .wrong("two whole numbers", version == root.end() ? "none" : shown(*version));
+  }
+  if ((*version)[0] != kCaptureMajor) {
+    throw FieldPath(&top, "version").wrong(fmt::format("{}.x", kCaptureMajor), version->dump());
+  }
+}
+
+// Whether a name stays below the folder that it is relative to.
+bool staysInside(const std::filesystem::path& name) {
+  if (name.empty() || name.is_absolute()) return false;
+  for (const auto& part : name) {
+    if (part == "..") return false;
+  }
+  return name.string().find('\0') == std::string::npos;
+}
+
+void checkName(const FieldPath& path, const std::string& name) {
+  if (!staysInside(name)) throw path.wrong("the name of a file in the folder", '\'' + name + '\'');
+}
+
+CaptureFileView viewOf(const ViewEntry& entry, const std::vector<LightSlab>& slabs,
+                       const FieldPath& path) {
+  checkName(FieldPath(&path, "photographs"), entry.photographs);
+  if (!entry.mask.empty()) checkName(FieldPath(&path, "mask"), entry.mask);
+  if (!entry.depth.empty()) checkName(FieldPath(&path, "depth"), entry.depth);
+  CaptureFileView view{{entry.name, geometryOf(entry.geometry, slabs)},
+                       entry.photographs,
+                       entry.mask,
+                       entry.depth};
+  checkGeometry(view.view.geometry);
+  return view;
+}
+
+void checkUnique(const CaptureFile& capture) {
+  std::set<std::string> names;
+  for (const CaptureFileView& view : capture.views) {
+    if (!names.insert(view.view.name).second) {
+      throw Error(Fault::Input, fmt::format("field 'views': expected each name once, found '{}' "
+                                            "twice",
+                                            view.view.name));
+    }
+    const bool alike = view.mask.empty() == capture.views.front().mask.empty() &&
+                       view.depth.empty() == capture.views.front().depth.empty();
+    if (!alike) {
+      throw Error(Fault::Input,
+                  fmt::format("field 'views': expected masks and depths of all views or of none, "
+                              "found '{}' unlike '{}'",
+                              view.view.name, capture.views.front().view.name));
+    }
+  }
+}
+
+CaptureFile readCapture(std::string_view text) {
+  const Json root = Json::parse(text);
+  const FieldPath top;
+  checkVersion(root, top);
+  FileRecord file;
+  Reader reader(root, top);
+  describe(reader, file);
+  for (const LightSlab& slab : file.slabs) checkSlab(slab);
+
+  CaptureFile capture;
+  capture.generator = std::move(file.generator);
+  capture.rendered = file.rendered;
+  for (LightRecord& light : file.lights) {
+    capture.lights.push_back(
+        {std::move(light.name), {Direction::fromVector(light.direction), light.intensity}, 0});
+  }
+  const FieldPath views(&top, "views");
+  for (std::size_t i = 0; i < file.views.size(); ++i) {
+    capture.views.push_back(viewOf(file.views[i], file.slabs, FieldPath(&views, i)));
+  }
+  checkUnique(capture);
+  return capture;
+}
+
+void replaceAll(std::string& text, std::string_view word, std::string_view by) {
+  for (auto at = text.find(word); at != std::string::npos; at = text.find(word, at + by.size())) {
+    text.replace(at, word.size(), by);
+  }
+}
+
+}  // namespace
+
+std::string textOf(const CaptureFile& capture) {
+  FileRecord file{capture.generator, capture.rendered, {}, {}, {}};
+  for (const LightFileEntry& entry : capture.lights) {
+    file.lights.push_back({entry.name, entry.light.toLight.vector(), entry.light.intensity});
+  }
+  for (const CaptureFileView& view : capture.views) {
+    file.views.push_back({view.view.name, view.photographs, view.mask, view.depth,
+                          recordOf(view.view.geometry, file.slabs)});
+  }
+  Writer writer{FieldPath()};
+  writer.node()["format"] = kCaptureFormat;
+  writer.node()["version"] = {kCaptureMajor, kCaptureMinor};
+  describe(writer, file);
+  return writer.node().dump(1, ' ', false, OrderedJson::error_handler_t::replace) + '\n';
+}
+
+CaptureFile captureFileFromText(std::string_view json, const std::string& source) {
+  try {
+    return readCapture(json);
+  } catch (const Error& error) {
+    throw Error(error.fault(), fmt::format("{}: {}", source, error.what()));
+  } catch (const nlohmann::json::parse_error& error) {
+    throw Error(Fault::Input, fmt::format("{}: expected JSON, found an error at byte {}", source,
+                                          error.byte));
+  }
+}
+
+std::filesystem::path pictureOf(const std::string& pattern, const LightFileEntry& light,
+                                int index) {
+  std::string name = pattern;
+  replaceAll(name, "{index}", fmt::format("{:04}", index));
+  replaceAll(name, "{light}", light.name);
+  if (!staysInside(name)) {
+    throw Error(Fault::Input,
+                fmt::format("light '{}': expected a name that makes '{}' a file in the folder, "
+                            "found '{}'",
+                            light.name, pattern, name));
+  }
+  return name;
+}
+
+}  // namespace illum
