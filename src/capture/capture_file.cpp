@@ -6,13 +6,14 @@
 #include <set>
 
 #include "illum/error.h"
-#include "object/json_visitors.h"
+#include "json/json_text.h"
+#include "json/visitors.h"
 #include "object/view_fields.h"
 
 namespace illum {
 namespace {
 
-using namespace manifestfile;
+using namespace fields;
 
 constexpr std::string_view kCaptureFormat = "illum-capture";
 constexpr int kCaptureMajor = 1, kCaptureMinor = 0;
@@ -86,10 +87,8 @@ CaptureFileView viewOf(const ViewEntry& entry, const std::vector<LightSlab>& sla
   checkName(FieldPath(&path, "photographs"), entry.photographs);
   if (!entry.mask.empty()) checkName(FieldPath(&path, "mask"), entry.mask);
   if (!entry.depth.empty()) checkName(FieldPath(&path, "depth"), entry.depth);
-  CaptureFileView view{{entry.name, geometryOf(entry.geometry, slabs)},
-                       entry.photographs,
-                       entry.mask,
-                       entry.depth};
+  CaptureFileView view{
+      {entry.name, geometryOf(entry.geometry, slabs)}, entry.photographs, entry.mask, entry.depth};
   checkGeometry(view.view.geometry);
   return view;
 }
@@ -158,7 +157,7 @@ std::string textOf(const CaptureFile& capture) {
   writer.node()["format"] = kCaptureFormat;
   writer.node()["version"] = {kCaptureMajor, kCaptureMinor};
   describe(writer, file);
-  return writer.node().dump(1, ' ', false, OrderedJson::error_handler_t::replace) + '\n';
+  return jsonText(writer.node());
 }
 
 CaptureFile captureFileFromText(std::string_view json, const std::string& source) {
@@ -167,8 +166,8 @@ CaptureFile captureFileFromText(std::string_view json, const std::string& source
   } catch (const Error& error) {
     throw Error(error.fault(), fmt::format("{}: {}", source, error.what()));
   } catch (const nlohmann::json::parse_error& error) {
-    throw Error(Fault::Input, fmt::format("{}: expected JSON, found an error at byte {}", source,
-                                          error.byte));
+    throw Error(Fault::Input,
+                fmt::format("{}: expected JSON, found an error at byte {}", source, error.byte));
   }
 }
 

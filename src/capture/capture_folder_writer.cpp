@@ -92,8 +92,8 @@ class FolderWriter {
     file.rendered = capture_.isRendered();
     file.lights = capture_.lights();
     for (LightFileEntry& entry : file.lights) entry.light.intensity = {1, 1, 1};
-    progress_.begin("capturing", static_cast<std::uint64_t>(capture_.groups()) *
-                                     capture_.lights().size());
+    progress_.begin("capturing",
+                    static_cast<std::uint64_t>(capture_.groups()) * capture_.lights().size());
     for (int group = 0; group < capture_.groups(); ++group) {
       const std::string name = fmt::format("views/{:04}", group);
       fs::create_directories(folder_ / name);

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "capture/capture_file.h"
 #include "core/files.h"
 #include "encode/encode_tile.h"
 #include "encode/raw_archive.h"
@@ -100,6 +101,25 @@ void addLightFiles(const fs::path& folder) {
   corpus.add("1\na.jpg nan 0 inf\n");
 }
 
+void addCaptureFiles(const fs::path& folder) {
+  Corpus corpus(folder / "capture_file_fuzz");
+  LightSlab slab;
+  slab.uCount = 2;
+  slab.size = {8, 6};
+  PinholeCamera camera;
+  camera.size = {8, 6};
+  Panorama panorama;
+  panorama.size = {16, 8};
+  CaptureFile file;
+  file.lights = {{"lamp", {Direction(), {1, 1, 1}}, 0}};
+  file.views = {{{"left", SlabView{slab, 0, 0}}, "l/{index}.exr", "l/mask.exr", "l/depth.exr"},
+                {{"camera", camera}, "c/{light}.exr", "c/mask.exr", "c/depth.exr"},
+                {{"around", panorama}, "a/{light}.exr", "a/mask.exr", "a/depth.exr"}};
+  corpus.add(textOf(file));
+  file.views = {{{"one", OrthographicView{{8, 6}}}, "{light}.jpg", "", ""}};
+  corpus.add(textOf(file));
+}
+
 }  // namespace
 }  // namespace illum
 
@@ -111,6 +131,7 @@ int main(int argc, char** argv) {
   try {
     illum::addObjects(argv[1]);
     illum::addLightFiles(argv[1]);
+    illum::addCaptureFiles(argv[1]);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "%s\n", error.what());
     return 1;
