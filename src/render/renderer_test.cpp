@@ -36,8 +36,7 @@ std::vector<float> rendered(const Renderer& renderer, const View& view,
 TEST(Renderer, AMattPlaneFollowsTheCosine) {
   const Renderer renderer(planeScene({1, 0.5f, 0.25f}), {});
   for (const double theta : {0.0, 0.4, 1.0, 1.5, 1.6}) {
-    const auto samples =
-        rendered(renderer, frontal(8), {{Direction::fromAngles(theta, 0.7), 3}});
+    const auto samples = rendered(renderer, frontal(8), {{Direction::fromAngles(theta, 0.7), 3}});
     for (std::size_t p = 0; p < 64; ++p) {
       const double expected = std::max(0.0, std::cos(theta));
       EXPECT_NEAR(samples[p], expected, 1e-5) << "theta " << theta << " pixel " << p;
