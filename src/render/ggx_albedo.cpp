@@ -49,16 +49,32 @@ Entry integrated(float cosine, float alpha) {
   return {static_cast<float>(base / kCount), static_cast<float>(grazing / kCount)};
 }
 
+// The entry at the horizon: such that the line from it to the next one is nowhere below the true
+// curve, which turns down only just before the horizon, where facets hide each other. So what lies
+// below never gets more than is left.
+Entry atHorizon(const Entry& next, float alpha) {
+  Entry entry{0, 0};
+  for (const float share : {0.02f, 0.05f, 0.1f, 0.2f, 0.3f, 0.5f, 0.7f}) {
+    const Entry between = integrated(share / kAlbedoSteps, alpha);
+    const auto extended = [&](float at, float end) { return end + (at - end) / (1 - share); };
+    entry.base = std::max(entry.base, extended(between.base, next.base));
+    entry.grazing = std::max(entry.grazing, extended(between.grazing, next.grazing));
+  }
+  return entry;
+}
+
 std::vector<GgxAlbedo> tabulated() {
   std::vector<GgxAlbedo> table(kRoughnessSteps + 1);
   for (std::size_t r = 0; r <= kRoughnessSteps; ++r) {
     const float alpha = ggxAlpha(static_cast<float>(r) / kRoughnessSteps);
-    for (std::size_t k = 0; k <= kAlbedoSteps; ++k) {
-      const float cosine = std::max(1e-3f, static_cast<float>(k) / kAlbedoSteps);
-      const Entry entry = integrated(cosine, alpha);
+    const auto set = [&](std::size_t k, Entry entry) {
       table[r].base[k] = entry.base;
       table[r].grazing[k] = entry.grazing;
+    };
+    for (std::size_t k = 1; k <= kAlbedoSteps; ++k) {
+      set(k, integrated(static_cast<float>(k) / kAlbedoSteps, alpha));
     }
+    set(0, atHorizon({table[r].base[1], table[r].grazing[1]}, alpha));
   }
   return table;
 }

@@ -20,6 +20,7 @@ class HairBsdf {
 
   void evaluate(const DirectionBatch& toLight, std::size_t count, BsdfBatch& out) const;
   std::optional<BsdfSample> sample(float choice, std::array<float, 2> uniform) const;
+  bool isGlossy() const { return false; }  ///< its lobes are wide
 
  private:
   Float3 tangent_, toViewer_;

@@ -37,10 +37,6 @@ float turnOf(int id, double step) {
   return static_cast<float>(turned - std::floor(turned));
 }
 
-float wrapped(float x) {
-  return x >= 1 ? x - 1 : x;
-}
-
 }  // namespace
 
 DiscIndex::DiscIndex(std::span<const Float3> centres, double radiusRadians) {
@@ -97,7 +93,7 @@ LightTable::LightTable(std::span<const RenderLight> lights, double radiusRadians
   for (std::size_t l = 0; l < count_; ++l) {
     const Frame frame(normalised(float3(lights[l].toLight.vector())));
     centres_.push_back(frame.z);
-    Batch& batch = batches_[l / kBatch];
+    DiscBatch& batch = batches_[l / kBatch];
     const std::size_t i = l % kBatch;
     batch.centre.x[i] = frame.z.x, batch.centre.y[i] = frame.z.y, batch.centre.z[i] = frame.z.z;
     batch.across.x[i] = frame.x.x, batch.across.y[i] = frame.x.y, batch.across.z[i] = frame.x.z;
@@ -108,22 +104,11 @@ LightTable::LightTable(std::span<const RenderLight> lights, double radiusRadians
   if (areDiscs_) index_ = DiscIndex(centres_, radiusRadians);
 }
 
-void LightTable::draw(std::size_t batch, std::array<float, 2> uniform, DirectionBatch& out) const {
-  const Batch& from = batches_[batch];
-  if (!areDiscs_) {
-    out = from.centre;
-    return;
-  }
-  for (std::size_t i = 0; i < kBatch; ++i) {
-    // Even in the height on the cap is even in its area.
-    const float drop = height_ * wrapped(uniform[0] + from.turnA[i]);
-    const float angle = 2 * std::numbers::pi_v<float> * wrapped(uniform[1] + from.turnB[i]);
-    const float radius = std::sqrt(drop * (2 - drop));
-    const float along = 1 - drop, a = radius * std::cos(angle), b = radius * std::sin(angle);
-    out.x[i] = along * from.centre.x[i] + a * from.across.x[i] + b * from.up.x[i];
-    out.y[i] = along * from.centre.y[i] + a * from.across.y[i] + b * from.up.y[i];
-    out.z[i] = along * from.centre.z[i] + a * from.across.z[i] + b * from.up.z[i];
-  }
+const DirectionBatch& LightTable::draw(std::size_t batch, std::array<float, 2> uniform,
+                                       DirectionBatch& buffer) const {
+  if (!areDiscs_) return batches_[batch].centre;
+  drawOnDiscs(batches_[batch], height_, uniform, std::min(kBatch, count_ - batch * kBatch), buffer);
+  return buffer;
 }
 
 }  // namespace illum

@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "render/direction_batch.h"
+#include "render/disc_kernel.h"
 #include "render/float3.h"
 #include "render/renderer.h"
 
@@ -45,7 +45,9 @@ class LightTable {
 
   /// A point on each disc of a batch. All lights share `uniform`, each turned by its own two
   /// numbers, a function of its id.
-  void draw(std::size_t batch, std::array<float, 2> uniform, DirectionBatch& out) const;
+  /// Points to `buffer`, or to the lights themselves where they are not discs.
+  const DirectionBatch& draw(std::size_t batch, std::array<float, 2> uniform,
+                             DirectionBatch& buffer) const;
 
   /// Calls use(l) for every light whose disc holds `direction`.
   template <typename Use>
@@ -58,18 +60,13 @@ class LightTable {
   }
 
  private:
-  struct Batch {
-    DirectionBatch centre, across, up;           // each disc's frame
-    std::array<float, kBatch> turnA{}, turnB{};  // of `uniform`
-  };
-
   std::size_t count_;
   bool areDiscs_;
   float weight_, radiance_ = 0, density_ = 0;
   float chordSquared_ = 0;
   float height_ = 0;  // of the spherical cap: 1 - cos(radius)
   std::vector<Float3> centres_;
-  std::vector<Batch> batches_;
+  std::vector<DiscBatch> batches_;
   DiscIndex index_;
 };
 

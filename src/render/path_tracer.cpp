@@ -12,6 +12,8 @@ namespace {
 
 // Mirrors and glass in a row, before the path is given up.
 constexpr int kMostIdeal = 16;
+// Behind a matt surface nothing is taken for smoother than this.
+constexpr float kRoughnessBehindMatt = 0.6f;
 // How a beam widens when it leaves a rough surface: for textures alone.
 constexpr float kScatteredSpread = 0.15f;
 
@@ -53,6 +55,9 @@ struct PathTracer::Path {
   const SampleSequence& sequence;
   LinearRgb throughput{1, 1, 1};
   int corner = 0, bounces = 0, idealInARow = 0;
+  /// A path that was spread once does not resolve narrower highlights than that: the few that
+  /// hit one would be specks (Kaplanyan and Dachsbacher 2013, "Path space regularization").
+  float leastRoughness = 0;
   /// The share of what a disc sends that this path has to account for, given as the density with
   /// which the direction was drawn: infinite where nothing else could find it, 0 where other paths
   /// account for all.
@@ -78,7 +83,8 @@ bool PathTracer::trace(const BeamRay& beam, const SampleSequence& sequence, Ligh
       return true;
     }
     if (path.bounces > bounces_) return true;
-    const SurfacePoint point = surfaces_.at(*hit, path.beam);
+    SurfacePoint point = surfaces_.at(*hit, path.beam);
+    point.roughness = std::max(point.roughness, path.leastRoughness);
     bool goesOn = false;
     switch (point.kind) {
       case Material::Kind::Mirror:
@@ -129,14 +135,16 @@ bool PathTracer::ideal(const SurfacePoint& point, Path& path) const {
 
 template <typename Bsdf>
 bool PathTracer::scatter(const SurfacePoint& point, const Bsdf& bsdf, Path& path, LightSums& sums) {
-  bool alsoDrawn = false;
-  if constexpr (requires { bsdf.isGlossy(); }) alsoDrawn = lights_.areDiscs() && bsdf.isGlossy();
+  const bool alsoDrawn = lights_.areDiscs() && bsdf.isGlossy();
   addLights(point, bsdf, path, alsoDrawn, sums);
   if (path.bounces == bounces_ && !alsoDrawn) return false;
   const auto sample = bsdf.sample(path.numbers(kChoice)[0], path.numbers(kScatter));
   if (!sample) return false;
   path.throughput = product(path.throughput, sample->weight);
   path.discDensity = alsoDrawn ? sample->density : 0;
+  path.leastRoughness = std::max(
+      path.leastRoughness,
+      bsdf.isGlossy() ? std::min(point.roughness, kRoughnessBehindMatt) : kRoughnessBehindMatt);
   path.idealInARow = 0;
   ++path.bounces;
   path.go(point, sample->direction, kScatteredSpread);
@@ -152,13 +160,13 @@ void PathTracer::addLights(const SurfacePoint& point, const Bsdf& bsdf, const Pa
   const LinearRgb weight = lights_.weight() * path.throughput;
   for (std::size_t first = 0; first < lights_.count(); first += kBatch) {
     const std::size_t count = std::min(kBatch, lights_.count() - first);
-    lights_.draw(first / kBatch, onDisc, directions_);
-    bsdf.evaluate(directions_, count, values_);
+    const DirectionBatch& directions = lights_.draw(first / kBatch, onDisc, directions_);
+    bsdf.evaluate(directions, count, values_);
 
     std::size_t rays = 0;
     for (std::size_t i = 0; i < count; ++i) {
       if (!(values_.r[i] + values_.g[i] + values_.b[i] > 0)) continue;
-      const Float3 direction{directions_.x[i], directions_.y[i], directions_.z[i]};
+      const Float3 direction{directions.x[i], directions.y[i], directions.z[i]};
       const Float3 origin = originFor(point, direction);
       ShadowRay& ray = rays_[rays++];
       ray = {origin.x,

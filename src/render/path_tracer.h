@@ -21,6 +21,11 @@ struct LightSums {
   void clear() {
     for (auto& channel : channels) std::fill(channel.begin(), channel.end(), 0.0f);
   }
+  void scale(float factor) {
+    for (auto& channel : channels) {
+      for (float& sum : channel) sum *= factor;
+    }
+  }
   void add(std::size_t light, LinearRgb value) {
     channels[0][light] += value.r;
     channels[1][light] += value.g;

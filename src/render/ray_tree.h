@@ -59,7 +59,7 @@ class RayTree {
 
   /// `scene` and `filter` must outlive the tree. Indices are valid and positions finite.
   RayTree(const Scene& scene, const SurfaceFilter& filter, const Filtered& filtered);
-  ~RayTree();
+  virtual ~RayTree();
   RayTree(const RayTree&) = delete;
   RayTree& operator=(const RayTree&) = delete;
 
@@ -67,8 +67,8 @@ class RayTree {
 
   /// Traces shadow rays, each on its own account: what becomes of one does not depend on the
   /// others. `depths`, by ShadowRay::id, are added to; they may be empty where the scene has no
-  /// glass.
-  void shadows(std::span<ShadowRay> rays, std::span<OpticalDepth> depths) const;
+  /// glass. (Virtual so that benchmarks can record the rays.)
+  virtual void shadows(std::span<ShadowRay> rays, std::span<OpticalDepth> depths) const;
 
   bool hasGlass() const { return hasGlass_; }
   std::uint64_t bytes() const;

@@ -37,6 +37,34 @@ float median(std::vector<float>& values) {
   return *middle;
 }
 
+// Pixels that are rendered before they are stored: the samples of one light lie far from those of
+// the next, so that single values would each touch a line of the cache.
+constexpr int kRun = 16;
+
+// The mean over the samples that met the scene.
+void renderPixel(const RenderSettings& settings, const CameraRays& rays, int x, int y,
+                 PathTracer& tracer, LightSums& sums) {
+  sums.clear();
+  int covered = 0;
+  for (int s = 0; s < settings.samplesPerPixel; ++s) {
+    const SampleSequence sequence(settings.seed, x, y, s);
+    covered += tracer.trace(rays.through(x, y, sequence), sequence, sums) ? 1 : 0;
+  }
+  if (covered > 1) sums.scale(1 / static_cast<float>(covered));
+}
+
+// `count` pixels from `first` on, into samples[(3 * light + channel) * pixels + pixel].
+void storeRun(const std::vector<LightSums>& run, std::size_t count, std::size_t pixels,
+              std::size_t first, std::span<float> samples) {
+  const std::size_t lights = run.front().channels[0].size();
+  for (std::size_t l = 0; l < lights; ++l) {
+    for (std::size_t c = 0; c < 3; ++c) {
+      float* to = samples.data() + (3 * l + c) * pixels + first;
+      for (std::size_t i = 0; i < count; ++i) to[i] = run[i].channels[c][l];
+    }
+  }
+}
+
 }  // namespace
 
 struct Renderer::State {
@@ -68,23 +96,16 @@ void Renderer::render(const View& view, const Rectangle& rectangle,
   const LightTable table(lights, settings.lightRadiusRadians);
   const CameraRays rays = state_->raysOf(view);
   PathTracer tracer(state_->tree, state_->surfaces, table, settings.bounces);
-  LightSums sums(lights.size());
-  const std::size_t pixels = rectangle.pixels();
-  std::size_t pixel = 0;
+  std::vector<LightSums> run(kRun, LightSums(lights.size()));
+  std::size_t first = 0;
   for (int y = rectangle.y; y < rectangle.bottom(); ++y) {
-    for (int x = rectangle.x; x < rectangle.right(); ++x, ++pixel) {
-      sums.clear();
-      int covered = 0;
-      for (int s = 0; s < settings.samplesPerPixel; ++s) {
-        const SampleSequence sequence(settings.seed, x, y, s);
-        covered += tracer.trace(rays.through(x, y, sequence), sequence, sums) ? 1 : 0;
+    for (int x = rectangle.x; x < rectangle.right(); x += kRun) {
+      const int count = std::min(kRun, rectangle.right() - x);
+      for (int i = 0; i < count; ++i) {
+        renderPixel(settings, rays, x + i, y, tracer, run[static_cast<std::size_t>(i)]);
       }
-      const float scale = covered > 0 ? 1 / static_cast<float>(covered) : 0;
-      for (std::size_t l = 0; l < lights.size(); ++l) {
-        for (std::size_t c = 0; c < 3; ++c) {
-          samples[(3 * l + c) * pixels + pixel] = scale * sums.channels[c][l];
-        }
-      }
+      storeRun(run, static_cast<std::size_t>(count), rectangle.pixels(), first, samples);
+      first += static_cast<std::size_t>(count);
     }
   }
 }
