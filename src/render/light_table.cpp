@@ -23,7 +23,7 @@ SquarePoint toOctahedral(Float3 d) {
   return {std::copysign(1 - std::abs(y), d.x), std::copysign(1 - std::abs(x), d.y)};
 }
 
-// Of no use beyond: rounding in directions is larger.
+// More than the rounding of directions.
 constexpr double kSlackRadians = 1e-5;
 
 double angleBetween(Float3 a, Float3 b) {
@@ -52,10 +52,10 @@ DiscIndex::DiscIndex(std::span<const Float3> centres, double radiusRadians) {
     const float left = -1 + step * static_cast<float>(cell % static_cast<std::size_t>(side_));
     const float low = -1 + step * static_cast<float>(cell / static_cast<std::size_t>(side_));
     const Float3 middle = fromOctahedral(left + 0.5f * step, low + 0.5f * step);
-    // The map stretches no more than sqrt(3) from a cell's middle along any straight way.
-    const double reach = std::sqrt(3.0) * std::numbers::sqrt2 * 0.5 * static_cast<double>(step);
+    // The map stretches lengths at most threefold, in the middle of an octahedron's face.
+    const double reach = 3 * std::numbers::sqrt2 / 2 * static_cast<double>(step);
     for (std::size_t l = 0; l < centres.size(); ++l) {
-      if (angleBetween(middle, centres[l]) <= radiusRadians + reach * 1.5 + kSlackRadians) {
+      if (angleBetween(middle, centres[l]) <= radiusRadians + reach + kSlackRadians) {
         discs_.push_back(static_cast<std::uint32_t>(l));
       }
     }
