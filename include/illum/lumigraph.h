@@ -1,0 +1,74 @@
+// Views that nobody took, made of views that somebody did: light slabs (Levoy and Hanrahan 1996),
+// their depth correction (Gortler et al. 1996), cameras anywhere (Buehler et al. 2001). The
+// mathematics is in docs/math/view_synthesis.md.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "illum/camera.h"
+#include "illum/picture.h"
+
+namespace illum {
+
+/// The pictures of a set of views, one at a time, so that none need be in memory that is not looked
+/// at. Called by one thread at a time; what is returned may be read by many.
+class ViewSource {
+ public:
+  virtual ~ViewSource() = default;
+
+  virtual const std::vector<View>& views() const = 0;
+  /// Of every picture: values premultiplied by coverage, the last channel being the coverage itself
+  /// (4: RGBA in linear light; more: whatever is to be interpolated).
+  virtual int channels() const = 0;
+  virtual bool hasDepth() const = 0;
+  virtual std::shared_ptr<const Picture> picture(int view) = 0;
+  /// One channel, depthOf of camera.h, infinity where nothing is. Only where hasDepth().
+  virtual std::shared_ptr<const Picture> depth(int view) = 0;
+};
+
+/// A view with its pictures in memory.
+struct SourceView {
+  View view;
+  Picture picture;  ///< as ViewSource::picture
+  Picture depth;    ///< as ViewSource::depth; empty: none
+};
+
+/// Views in memory as a source; `views` must outlive it. Throws Error (Fault::Input) where pictures
+/// do not have the size of their views, differ in channels, or only some have depth.
+std::unique_ptr<ViewSource> viewSource(std::span<const SourceView> views);
+
+/// {p : dot(normal, p - point) = 0}, object frame.
+struct Plane {
+  Vector3 point, normal{0, 0, 1};
+};
+
+struct SynthesisOptions {
+  /// What is sharp where no depth tells where surfaces are, or where depth is not to be looked at.
+  /// Empty: by depth, if the views have it; else each slab's own window, the plane that free
+  /// cameras look at, and infinity for panoramas.
+  std::optional<Plane> focus;
+  /// Slabs: the radius of the synthetic aperture on the uv plane, in units of the object (Isaksen
+  /// et al. 2000); 0: between the four nearest view points only. Needs `focus`, or views without
+  /// depth.
+  double apertureRadius = 0;
+  /// Slabs with depth: false interpolates on the window as if there was none.
+  bool useDepth = true;
+  /// Free cameras: how many views a pixel is blended of, 1 to 64.
+  int blendedViews = 4;
+};
+
+struct SynthesisedView {
+  Picture picture;  ///< the source's channels, premultiplied; all zero where no view saw anything
+  Picture depth;    ///< of `target`; infinity where nothing is. Empty without depth.
+};
+
+/// What `target` sees. At a view of the source this is that view's picture, to rounding. The same
+/// on any number of threads. Throws Error (Fault::Input) for a source without views or one whose
+/// views are slabs' and others mixed, and (Fault::Usage) for options out of range.
+SynthesisedView synthesise(ViewSource& source, const ViewGeometry& target,
+                           const SynthesisOptions& options = {});
+
+}  // namespace illum

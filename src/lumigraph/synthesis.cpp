@@ -1,0 +1,307 @@
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <deque>
+
+#include "illum/error.h"
+#include "illum/lumigraph.h"
+#include "lumigraph/blend_rule.h"
+#include "lumigraph/default_focus.h"
+#include "lumigraph/depth_mesh.h"
+#include "lumigraph/view_samples.h"
+
+namespace illum {
+namespace {
+
+// Where less than this part of what should see a point does, others are asked as well.
+constexpr float kEnoughVisible = 0.5F;
+// Depth pictures of free cameras that are drawn: enough that what one does not see another does.
+constexpr std::size_t kMostDrawnViews = 12;
+
+// Views that are blended by one rule: those of one slab, or all free ones.
+struct Rig {
+  std::vector<int> views;  // of the source
+  std::unique_ptr<BlendRule> rule;
+};
+
+bool isKnown(Vector3 point) {
+  return std::isfinite(point.x) && std::isfinite(point.y) && std::isfinite(point.z);
+}
+
+class Synthesis {
+ public:
+  Synthesis(ViewSource& source, const ViewGeometry& target, const SynthesisOptions& options)
+      : source_(source),
+        options_(options),
+        byDepth_(source.hasDepth() && options.useDepth && !options.focus),
+        target_(target),
+        points_{target_.size(), std::vector<Vector3>(target_.size().pixels())},
+        near_(target_.size(), source.channels() + kExtraSums) {
+    for (const View& view : source.views()) projectors_.emplace_back(view.geometry);
+    collectRigs();
+  }
+
+  SynthesisedView run() {
+    if (byDepth_) {
+      findSurface();
+      for (Rig& rig : rigs_) {
+        if (!rig.rule) rig.rule = freeRule(rig);
+      }
+      for (const Rig& rig : rigs_) add(rig, Ring::Near, near_);
+      askMoreViews();
+    } else {
+      for (Rig& rig : rigs_) {
+        placeOnPlane(rig);
+        if (!rig.rule) rig.rule = freeRule(rig);
+        add(rig, Ring::Near, near_);
+      }
+    }
+    return resolved();
+  }
+
+ private:
+  void collectRigs();
+  void findSurface();
+  void placeOnPlane(const Rig& rig);
+  void add(const Rig& rig, Ring ring, Picture& sums);
+  void askMoreViews();
+  SynthesisedView resolved() const;
+
+  std::unique_ptr<BlendRule> freeRule(const Rig& rig) const {
+    std::vector<const ViewProjector*> views;
+    for (const int view : rig.views) views.push_back(&projectors_[static_cast<std::size_t>(view)]);
+    return freeBlend(target_, views, points_, options_.blendedViews);
+  }
+  const SlabView* slabView(int view) const {
+    return std::get_if<SlabView>(&source_.views()[static_cast<std::size_t>(view)].geometry);
+  }
+  // Whether any ray of the target asks for the view.
+  bool isAsked(const Rig& rig, int local, Ring ring) const;
+  std::vector<int> drawnViews(const Rig& rig) const;
+  // Of row y: 0 where nothing more is wanted of the ring.
+  void wantedWeights(const Rig& rig, int local, int y, Ring ring, std::span<float> weights) const;
+  float visibleShare(const Picture& sums, int x, int y) const {
+    const int channels = source_.channels();
+    const float all = sums.at(x, y, channels + kWeightSum);
+    return all > 0 ? sums.at(x, y, channels + kVisibleSum) / all : 0;
+  }
+
+  ViewSource& source_;
+  SynthesisOptions options_;
+  bool byDepth_;
+  ViewProjector target_;
+  std::deque<ViewProjector> projectors_;  // of the source's views
+  std::vector<Rig> rigs_;
+  SurfacePoints points_;
+  Picture near_, wide_;  // sums; the second is empty where it was not needed
+};
+
+void Synthesis::collectRigs() {
+  std::vector<const LightSlab*> slabs;
+  for (int i = 0; i < static_cast<int>(source_.views().size()); ++i) {
+    const SlabView* view = slabView(i);
+    const LightSlab* slab = view != nullptr ? &view->slab : nullptr;
+    const auto same = [&](const LightSlab* other) {
+      return slab == nullptr || other == nullptr ? slab == other : *slab == *other;
+    };
+    const auto found = std::find_if(slabs.begin(), slabs.end(), same);
+    if (found == slabs.end()) {
+      slabs.push_back(slab);
+      rigs_.push_back({{i}, nullptr});
+    } else {
+      rigs_[static_cast<std::size_t>(found - slabs.begin())].views.push_back(i);
+    }
+  }
+  for (std::size_t r = 0; r < rigs_.size(); ++r) {
+    if (slabs[r] == nullptr) {
+      if (rigs_.size() == 1) continue;
+      throw Error(Fault::Input, "expected views of slabs only, or none, found both");
+    }
+    std::vector<SlabView> views;
+    for (const int view : rigs_[r].views) views.push_back(*slabView(view));
+    rigs_[r].rule = slabBlend(target_, views, options_.apertureRadius);
+  }
+}
+
+bool Synthesis::isAsked(const Rig& rig, int local, Ring ring) const {
+  std::vector<float> weights(static_cast<std::size_t>(target_.size().width));
+  for (int y = 0; y < target_.size().height; ++y) {
+    wantedWeights(rig, local, y, ring, weights);
+    if (std::any_of(weights.begin(), weights.end(), [](float w) { return w > 0; })) return true;
+  }
+  return false;
+}
+
+void Synthesis::wantedWeights(const Rig& rig, int local, int y, Ring ring,
+                              std::span<float> weights) const {
+  rig.rule->weights(local, y, ring, weights);
+  if (ring == Ring::Near) return;
+  const auto points = points_.row(y);
+  for (int x = 0; x < target_.size().width; ++x) {
+    const auto at = static_cast<std::size_t>(x);
+    if (!isKnown(points[at]) || visibleShare(near_, x, y) >= kEnoughVisible) weights[at] = 0;
+  }
+}
+
+// Of a slab, all that its rule asks for, since that depends on rays alone. Of free cameras, those
+// that stand and look most like the target.
+std::vector<int> Synthesis::drawnViews(const Rig& rig) const {
+  std::vector<int> drawn;
+  if (rig.rule) {
+    for (int local = 0; local < static_cast<int>(rig.views.size()); ++local) {
+      if (isAsked(rig, local, Ring::Near))
+        drawn.push_back(rig.views[static_cast<std::size_t>(local)]);
+    }
+    return drawn;
+  }
+  drawn = rig.views;
+  std::vector<double> unlike(source_.views().size());
+  double spread = 0;
+  for (const int v : drawn) {
+    spread += length(projectors_[static_cast<std::size_t>(v)].eye() - target_.eye()) /
+              static_cast<double>(drawn.size());
+  }
+  for (const int v : drawn) {
+    const ViewProjector& view = projectors_[static_cast<std::size_t>(v)];
+    const double apart = length(view.eye() - target_.eye());
+    unlike[static_cast<std::size_t>(v)] =
+        (spread > 0 ? apart / spread : 0) + length(view.axis() - target_.axis());
+  }
+  std::stable_sort(drawn.begin(), drawn.end(), [&](int a, int b) {
+    return unlike[static_cast<std::size_t>(a)] < unlike[static_cast<std::size_t>(b)];
+  });
+  drawn.resize(std::min(drawn.size(), kMostDrawnViews));
+  return drawn;
+}
+
+void Synthesis::findSurface() {
+  RangeBuffer buffer(target_);
+  for (const Rig& rig : rigs_) {
+    for (const int view : drawnViews(rig)) {
+      const auto depth = source_.depth(view);
+      drawDepth(projectors_[static_cast<std::size_t>(view)], *depth, buffer);
+    }
+  }
+  tbb::parallel_for(0, target_.size().height, [&](int y) {
+    const auto points = points_.row(y);
+    for (int x = 0; x < target_.size().width; ++x) {
+      const double range = buffer.range(x, y);
+      points[static_cast<std::size_t>(x)] = range < kNothing
+                                                ? target_.pointAt(x + 0.5, y + 0.5, range)
+                                                : Vector3{kNothing, kNothing, kNothing};
+    }
+  });
+}
+
+void Synthesis::placeOnPlane(const Rig& rig) {
+  const SlabView* slab = slabView(rig.views.front());
+  std::vector<const ViewProjector*> views;
+  for (const int view : rig.views) views.push_back(&projectors_[static_cast<std::size_t>(view)]);
+  const std::optional<Plane> plane = options_.focus ? options_.focus
+                                     : slab         ? windowOf(slab->slab)
+                                                    : planeLookedAt(views);
+  // What a slab saw along a line, it saw of all of it, also behind the eye.
+  const bool wholeLine = slab != nullptr;
+  tbb::parallel_for(0, target_.size().height, [&](int y) {
+    const auto points = points_.row(y);
+    for (int x = 0; x < target_.size().width; ++x) {
+      points[static_cast<std::size_t>(x)] =
+          onPlane(target_.ray(x + 0.5, y + 0.5), plane, wholeLine);
+    }
+  });
+}
+
+void Synthesis::add(const Rig& rig, Ring ring, Picture& sums) {
+  for (int local = 0; local < static_cast<int>(rig.views.size()); ++local) {
+    if (!isAsked(rig, local, ring)) continue;
+    const int view = rig.views[static_cast<std::size_t>(local)];
+    const auto picture = source_.picture(view);
+    const ViewProjector& projector = projectors_[static_cast<std::size_t>(view)];
+    // What stands where the target stands sees what the target sees, whatever others say of depth.
+    const bool asksDepth = byDepth_ && length(projector.eye() - target_.eye()) > 0;
+    const auto depth = asksDepth ? source_.depth(view) : nullptr;
+    const ViewSamples samples(projector, *picture, depth.get());
+    tbb::parallel_for(tbb::blocked_range<int>(0, target_.size().height), [&](const auto& rows) {
+      std::vector<float> weights(static_cast<std::size_t>(target_.size().width));
+      for (int y = rows.begin(); y < rows.end(); ++y) {
+        wantedWeights(rig, local, y, ring, weights);
+        const auto points = points_.row(y);
+        for (std::size_t x = 0; x < weights.size(); ++x) {
+          if (!isKnown(points[x])) weights[x] = 0;
+        }
+        samples.add(points, weights, sums.row(y));
+      }
+    });
+  }
+}
+
+void Synthesis::askMoreViews() {
+  bool wanted = false;
+  for (int y = 0; y < target_.size().height && !wanted; ++y) {
+    const auto points = points_.row(y);
+    for (int x = 0; x < target_.size().width && !wanted; ++x) {
+      wanted = isKnown(points[static_cast<std::size_t>(x)]) &&
+               visibleShare(near_, x, y) < kEnoughVisible;
+    }
+  }
+  if (!wanted) return;
+  wide_ = Picture(near_.size(), near_.channels());
+  for (const Rig& rig : rigs_) add(rig, Ring::Wide, wide_);
+}
+
+SynthesisedView Synthesis::resolved() const {
+  const int channels = source_.channels();
+  SynthesisedView result{Picture(target_.size(), channels), {}};
+  if (byDepth_) result.depth = Picture(target_.size(), 1);
+  tbb::parallel_for(0, target_.size().height, [&](int y) {
+    for (int x = 0; x < target_.size().width; ++x) {
+      const float nearVisible = near_.at(x, y, channels + kVisibleSum);
+      const float wideVisible = wide_.empty() ? 0 : wide_.at(x, y, channels + kVisibleSum);
+      float nearShare = std::min(1.0F, visibleShare(near_, x, y) / kEnoughVisible);
+      if (!(wideVisible > 0)) nearShare = 1;
+      const float byNear = nearVisible > 0 ? nearShare / nearVisible : 0;
+      const float byWide = wideVisible > 0 ? (1 - nearShare) / wideVisible : 0;
+      for (int c = 0; c < channels; ++c) {
+        const float wide = byWide > 0 ? byWide * wide_.at(x, y, c) : 0;
+        result.picture.at(x, y, c) = byNear * near_.at(x, y, c) + wide;
+      }
+      if (!byDepth_) continue;
+      Sighting seen;
+      const bool shown = (byNear > 0 || byWide > 0) &&
+                         target_.see(points_.row(y)[static_cast<std::size_t>(x)], seen);
+      result.depth.at(x, y, 0) = static_cast<float>(shown ? target_.depthOf(seen.range) : kNothing);
+    }
+  });
+  return result;
+}
+
+void checkOptions(const SynthesisOptions& options, const ViewGeometry& target) {
+  if (options.blendedViews < 1 || options.blendedViews > 64) {
+    throw Error(Fault::Usage,
+                fmt::format("expected 1 to 64 views to blend, found {}", options.blendedViews));
+  }
+  if (!(options.apertureRadius >= 0) || !std::isfinite(options.apertureRadius)) {
+    throw Error(Fault::Usage, fmt::format("expected an aperture of at least 0, found {}",
+                                          options.apertureRadius));
+  }
+  if (options.focus && !(length(options.focus->normal) > 0)) {
+    throw Error(Fault::Usage, "expected a focal plane with a normal, found one of length 0");
+  }
+  const Size size = sizeOf(target);
+  if (size.width < 1 || size.height < 1) {
+    throw Error(Fault::Usage, fmt::format("expected a picture of at least one pixel, found {}x{}",
+                                          size.width, size.height));
+  }
+}
+
+}  // namespace
+
+SynthesisedView synthesise(ViewSource& source, const ViewGeometry& target,
+                           const SynthesisOptions& options) {
+  if (source.views().empty()) throw Error(Fault::Input, "expected at least one view, found none");
+  checkOptions(options, target);
+  return Synthesis(source, target, options).run();
+}
+
+}  // namespace illum

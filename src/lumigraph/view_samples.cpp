@@ -1,0 +1,96 @@
+#include "lumigraph/view_samples.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace illum {
+namespace {
+
+// A surface at a point's range within the first is the point's, beyond the second it is another
+// one; in widths of a pixel, because that is how exactly a depth picture knows steep surfaces.
+constexpr double kSameSurface = 2, kOtherSurface = 6;
+// Of the shorter side: how wide views fade at their frames.
+constexpr double kFrameShare = 0.05;
+
+float agreement(double range, double found, double pixelWidth) {
+  const double apart = std::abs(range - found) / pixelWidth;
+  return static_cast<float>(
+      std::clamp((kOtherSurface - apart) / (kOtherSurface - kSameSurface), 0.0, 1.0));
+}
+
+}  // namespace
+
+double frameFade(const ViewProjector& view, const Sighting& seen) {
+  const Size size = view.size();
+  double inside = std::min(seen.y, size.height - seen.y);
+  if (!view.wraps()) inside = std::min({inside, seen.x, size.width - seen.x});
+  // Not "inside < 0": what is not a number is not in the frame.
+  if (!(inside >= 0)) return 0;
+  const double ramp = std::max(1.0, kFrameShare * std::min(size.width, size.height));
+  return std::clamp(inside / ramp, 1e-6, 1.0);
+}
+
+struct ViewSamples::Taps {
+  std::array<int, 4> x, y;
+  std::array<float, 4> weight;
+};
+
+ViewSamples::ViewSamples(const ViewProjector& view, const Picture& picture, const Picture* depth)
+    : view_(view), picture_(picture), depth_(depth) {}
+
+ViewSamples::Taps ViewSamples::tapsAt(const Sighting& seen) const {
+  const Size size = view_.size();
+  const double x = seen.x - 0.5, y = seen.y - 0.5;
+  const double left = std::floor(x), top = std::floor(y);
+  const auto fx = static_cast<float>(x - left), fy = static_cast<float>(y - top);
+  const auto column = [&](int i) {
+    return view_.wraps() ? (i + size.width) % size.width : std::clamp(i, 0, size.width - 1);
+  };
+  const int x0 = column(static_cast<int>(left)), x1 = column(static_cast<int>(left) + 1);
+  const int y0 = std::clamp(static_cast<int>(top), 0, size.height - 1);
+  const int y1 = std::clamp(static_cast<int>(top) + 1, 0, size.height - 1);
+  return {{x0, x1, x0, x1},
+          {y0, y0, y1, y1},
+          {(1 - fx) * (1 - fy), fx * (1 - fy), (1 - fx) * fy, fx * fy}};
+}
+
+// Leaves the weights of those taps that show the point's surface; returns how much that is. Pixels
+// that show nothing count: nothing is on their rays, neither the point nor what would hide it.
+float ViewSamples::weighByDepth(Taps& taps, double range) const {
+  const double pixelWidth = view_.pixelWidth(range);
+  float sum = 0;
+  for (std::size_t i = 0; i < 4; ++i) {
+    const double found = view_.rangeOf(depth_->at(taps.x[i], taps.y[i], 0));
+    if (found < kNothing) taps.weight[i] *= agreement(range, found, pixelWidth);
+    sum += taps.weight[i];
+  }
+  return sum;
+}
+
+void ViewSamples::add(std::span<const Vector3> points, std::span<const float> weights,
+                      std::span<float> sums) const {
+  const int channels = picture_.channels();
+  const auto stride = static_cast<std::size_t>(channels + kExtraSums);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    Sighting seen;
+    if (!(weights[i] > 0) || !view_.see(points[i], seen)) continue;
+    const auto weight = weights[i] * static_cast<float>(frameFade(view_, seen));
+    if (!(weight > 0)) continue;
+    Taps taps = tapsAt(seen);
+    const float visible = depth_ == nullptr ? 1.0F : weighByDepth(taps, seen.range);
+    float* sum = sums.data() + i * stride;
+    sum[channels + kWeightSum] += weight;
+    sum[channels + kVisibleSum] += weight * visible;
+    if (!(visible > 0)) continue;
+    // The taps' weights add up to `visible`: the mean of those that agree, times visible.
+    for (std::size_t t = 0; t < 4; ++t) {
+      const float share = weight * taps.weight[t];
+      if (share == 0) continue;
+      const float* texel = &picture_.at(taps.x[t], taps.y[t], 0);
+      for (int c = 0; c < channels; ++c) sum[c] += share * texel[c];
+    }
+  }
+}
+
+}  // namespace illum
