@@ -138,8 +138,9 @@ void OiioPicture::check(bool succeeded) {
   if (succeeded && !input_->has_error()) return;
   std::string found = input_->geterror();
   if (found.empty()) found = OIIO::geterror();
+  // What follows in further lines are consequences.
   throw inputError(path_, "an undamaged " + std::string(titleOf(format_)) + " picture",
-                   oneLine(found));
+                   oneLine(found.substr(0, found.find('\n'))));
 }
 
 OiioChannels chooseChannels(const OIIO::ImageSpec& spec, PhotographFormat format,
