@@ -2,26 +2,19 @@
 
 #include <fmt/format.h>
 
-#include <csignal>
 #include <cstdio>
 #include <memory>
 #include <nlohmann/json.hpp>
 
 #include "commands.h"
 #include "core/memory.h"
+#include "illum/error.h"
 #include "input_options.h"
+#include "orderly_stop.h"
 #include "terminal_progress.h"
 
 namespace illum::cli {
 namespace {
-
-volatile std::sig_atomic_t stopAsked = 0;
-
-// The first signal asks for an orderly stop; the second is the system's usual one.
-void askToStop(int signal) {
-  stopAsked = 1;
-  std::signal(signal, SIG_DFL);
-}
 
 struct BuildCommand {
   InputOptions input;
@@ -33,9 +26,8 @@ struct BuildCommand {
   bool json = false, weights = false, extension = false;
 
   void addTo(CLI::App& command) {
-    command.add_option("INPUT", input.input, "folder of photographs with a light file")->required();
-    command.add_option("-o,--output", output, "object to write: NAME.illum, or FOLDER/")
-        ->required();
+    command.add_option("INPUT", input.input, kInputs)->required();
+    command.add_option("-o,--output", output, "object to write: NAME.illum, or FOLDER/");
     addBasisOptions(command);
     addCodingOptions(command);
     input.addTo(command);
@@ -91,7 +83,7 @@ struct BuildCommand {
     if (!curve.empty()) build.curve = curve;
     if (!response.empty()) build.response = response;
     build.memoryBytes = machine.memoryBytes();
-    build.stop = [] { return stopAsked != 0; };
+    build.stop = stopAsked;
   }
 
   void printReport(const BuildReport& report) const {
@@ -112,10 +104,11 @@ struct BuildCommand {
   }
 
   int run() {
+    if (input.input == "builtin:") return listScenes();
+    if (output.empty()) throw Error(Fault::Usage, "-o is required: the object to write");
     const ThreadLimit limit(machine.threads);
     TerminalProgress progress;
-    std::signal(SIGINT, askToStop);
-    std::signal(SIGTERM, askToStop);
+    stopOnSignals();
     auto scratch = std::filesystem::absolute(output).parent_path();
     if (!std::filesystem::path(output).has_filename()) scratch = scratch.parent_path();
     const auto capture = input.open(captureMemoryBytes(build.memoryBytes), scratch, progress);
@@ -133,7 +126,7 @@ struct BuildCommand {
 }  // namespace
 
 void addBuild(CLI::App& program, int& exitCode) {
-  auto* command = program.add_subcommand("build", "make an object from photographs");
+  auto* command = program.add_subcommand("build", "make an object from photographs or a scene");
   const auto state = std::make_shared<BuildCommand>();
   state->addTo(*command);
   command->callback([command, state, &exitCode] {

@@ -9,6 +9,7 @@ namespace illum::cli {
 inline constexpr int kDone = 0, kFault = 1, kStopped = 130;
 
 void addBuild(CLI::App& program, int& exitCode);
+void addCapture(CLI::App& program, int& exitCode);
 void addRelight(CLI::App& program, int& exitCode);
 void addEvaluate(CLI::App& program, int& exitCode);
 void addInfo(CLI::App& program, int& exitCode);

@@ -3,10 +3,65 @@
 #include <fmt/format.h>
 #include <tbb/global_control.h>
 
+#include <cstdio>
+
+#include "commands.h"
 #include "core/memory.h"
+#include "illum/capture_folder.h"
 #include "illum/error.h"
 
 namespace illum::cli {
+
+namespace {
+
+// "9x9" as columns and rows of view points.
+std::array<int, 2> gridFrom(const std::string& text) {
+  std::array<int, 2> counts{};
+  int end = 0;
+  const int found = std::sscanf(text.c_str(), "%dx%d%n", &counts[0], &counts[1], &end);
+  if (found != 2 || static_cast<std::size_t>(end) != text.size() || counts[0] < 1 ||
+      counts[1] < 1) {
+    throw Error(Fault::Usage,
+                fmt::format("--uv: expected columns and rows such as 9x9, found \"{}\"", text));
+  }
+  return counts;
+}
+
+}  // namespace
+
+void SceneInput::addTo(CLI::App& command) {
+  const std::string group = "Scenes";
+  command.add_option("--uv", uv, "view points of each slab, such as 9x9")->group(group);
+  command.add_option("--size", size, "longer side of a view in pixels")->group(group);
+  command.add_option("--light-count", lights, "so many lights, evenly spread")->group(group);
+  command.add_option("--light-radius", lightRadiusDegrees, "of the lights' discs, in degrees")
+      ->group(group);
+  command.add_option("--samples", samples, "paths for each pixel")->group(group);
+  command.add_option("--bounces", bounces, "interreflections")->group(group);
+  command.add_option("--seed", seed, "of the random numbers")->group(group);
+}
+
+SceneOptions SceneInput::options() const {
+  constexpr double kRadiansPerDegree = 0.017453292519943295;
+  const auto given = [](int value, int none) {
+    return value == none ? std::nullopt : std::optional<int>(value);
+  };
+  SceneOptions options;
+  if (!uv.empty()) {
+    const auto counts = gridFrom(uv);
+    options.uCount = counts[0];
+    options.vCount = counts[1];
+  }
+  options.longerSide = given(size, 0);
+  options.lights = given(lights, 0);
+  options.samplesPerPixel = given(samples, 0);
+  options.bounces = given(bounces, -1);
+  if (lightRadiusDegrees != -1) {
+    options.lightRadiusRadians = lightRadiusDegrees * kRadiansPerDegree;
+  }
+  if (seed >= 0) options.seed = static_cast<std::uint64_t>(seed);
+  return options;
+}
 
 void InputOptions::addTo(CLI::App& command) {
   const std::string group = "Photographs";
@@ -19,16 +74,13 @@ void InputOptions::addTo(CLI::App& command) {
       ->group(group);
   command.add_option("--shrink", shrink, "scale down by this whole factor")->group(group);
   command.add_option("--transfer", transfer, "what pixel values are: linear or srgb")->group(group);
+  scene.addTo(command);
 }
 
-std::unique_ptr<Capture> InputOptions::open(std::uint64_t memoryBytes,
-                                            const std::filesystem::path& scratch,
-                                            Progress& progress) const {
+PhotographOptions InputOptions::photographOptions() const {
   PhotographOptions options;
   options.lightFile = lightFile;
   options.mask = mask;
-  options.memoryBytes = memoryBytes;
-  options.scratch = scratch;
   options.shrink = shrink;
   if (shrink < 1) {
     throw Error(Fault::Usage, fmt::format("--shrink: expected at least 1, found {}", shrink));
@@ -45,7 +97,27 @@ std::unique_ptr<Capture> InputOptions::open(std::uint64_t memoryBytes,
     throw Error(Fault::Usage,
                 fmt::format("--transfer: expected linear or srgb, found \"{}\"", transfer));
   }
-  return openPhotographs(input, options, progress);
+  return options;
+}
+
+std::unique_ptr<Capture> InputOptions::open(std::uint64_t memoryBytes,
+                                            const std::filesystem::path& scratch,
+                                            Progress& progress) const {
+  if (isSceneName(input)) return openScene(input, scene.options(), progress);
+  PhotographOptions options = photographOptions();
+  options.memoryBytes = memoryBytes;
+  options.scratch = scratch;
+  std::error_code missing;
+  return std::filesystem::exists(std::filesystem::path(input) / "capture.json", missing)
+             ? openCaptureFolder(input, options, progress)
+             : openPhotographs(input, options, progress);
+}
+
+int listScenes() {
+  for (const SceneName& scene : builtinSceneNames()) {
+    fmt::print("builtin:{:<10} {}\n", scene.name, scene.sentence);
+  }
+  return kDone;
 }
 
 void MachineOptions::addTo(CLI::App& command) {

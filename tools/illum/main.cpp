@@ -1,5 +1,5 @@
-// illum: from photographs to relightable objects and back to pictures. Exit codes: 0 done, 1 the
-// input is at fault, 2 wrong usage, 3 a fault of the machine, 130 stopped by Ctrl-C.
+// illum: from photographs and scenes to relightable objects and back to pictures. Exit codes: 0
+// done, 1 the input is at fault, 2 wrong usage, 3 a fault of the machine, 130 stopped by Ctrl-C.
 #include <fmt/format.h>
 
 #include <csignal>
@@ -26,6 +26,7 @@ int run(int argc, char** argv) {
   program.require_subcommand(1);
   int exitCode = illum::cli::kDone;
   illum::cli::addBuild(program, exitCode);
+  illum::cli::addCapture(program, exitCode);
   illum::cli::addRelight(program, exitCode);
   illum::cli::addEvaluate(program, exitCode);
   illum::cli::addInfo(program, exitCode);
