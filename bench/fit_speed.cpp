@@ -94,9 +94,9 @@ WholeWay readAndFit(const std::filesystem::path& folder, std::uint64_t memoryByt
   const Plan plan = planObject(*capture, lights, {}, Response::Display, memoryBytes / 4, silent);
   const double planning = secondsSince(start) - opening;
   Manifest manifest;
-  manifest.size = capture->size();
-  RowFitter fitter(*capture, lights.used, plan.fit.planes, manifest);
-  for (int row = 0; row < manifest.tilesDown(0); ++row) fitter.fit(row);
+  manifest.groups = {{capture->views().front(), 0, {}}};
+  RowFitter fitter(*capture, lights.used, {&plan.fit.planes}, manifest);
+  for (int row = 0; row < manifest.grid(0).tilesDown(0); ++row) fitter.fit(0, row);
   return {secondsSince(start), opening, planning, plan.fit};
 }
 

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """read_illum.py OBJECT.illum X,Y,Z [COLUMN,ROW ...]
 
-Relights an object (PNG coding, level 0, group 0) under one light of intensity 1 from direction X,Y,Z and
-prints the linear RGB of the pixels asked for. Written from docs/format.md alone, to be read beside it:
+Relights an object's first view (PNG coding, level 0) under one light of intensity 1 from direction X,Y,Z
+and prints the linear RGB of the pixels asked for. Written from docs/format.md alone, to be read beside it:
 plain loops, no checks of hostile input. Needs numpy and PIL."""
 import io
 import json
@@ -160,17 +160,56 @@ def read_tile(png, planes, width, height, split):
     return codes
 
 
-def relight(path, light):
-    """Linear RGB, rows x columns x 3."""
-    archive = zipfile.ZipFile(path)
+def read_manifest(archive):
     manifest = json.loads(archive.read("object.json"))
     assert manifest["format"] == "illum" and manifest["version"][0] == 1
-    coding, group = manifest["coding"], manifest["groups"][0]
+    return manifest
+
+
+def picture_of(manifest, group):
+    """What says the view's size; for a slab's view also its frame."""
+    geometry = group["geometry"]
+    return manifest["slabs"][geometry["slab"]] if geometry["kind"] == "slab" else (
+        geometry if geometry["kind"] == "photograph" else geometry[geometry["kind"]])
+
+
+def tiles(manifest, group):
+    """(name, top, left, height, width) of the tiles of level 0."""
+    size, tile = picture_of(manifest, group)["size"], manifest["tile"]
+    for y in range(0, size["height"], tile):
+        for x in range(0, size["width"], tile):
+            yield (f"{x // tile}_{y // tile}", y, x, min(tile, size["height"] - y),
+                   min(tile, size["width"] - x))
+
+
+def read_depth(path, index):
+    """rows x columns, infinite where the view shows nothing."""
+    archive = zipfile.ZipFile(path)
+    manifest = read_manifest(archive)
+    group = manifest["groups"][index]
+    size, depth = picture_of(manifest, group)["size"], group["depth"]
+    out = np.empty((size["height"], size["width"]))
+    for name, y, x, h, w in tiles(manifest, group):
+        samples = np.asarray(Image.open(io.BytesIO(archive.read(f"depth/{index}/0/{name}.png"))))
+        grey = depth["steps"] <= 254
+        code = samples.astype(int) if grey else samples[:, :, 0] * 256 + samples[:, :, 1].astype(int)
+        values = depth["from"] + (depth["to"] - depth["from"]) * code / depth["steps"]
+        out[y:y + h, x:x + w] = np.where(code == (255 if grey else 65535), np.inf, values)
+    return out
+
+
+def relight(path, light, index=0):
+    """Linear RGB, rows x columns x 3, of the view with that index."""
+    archive = zipfile.ZipFile(path)
+    manifest = read_manifest(archive)
+    coding, group = manifest["coding"], manifest["groups"][index]
     assert coding["name"] == "png"
 
     # The light in the group's frame: the rotation's inverse is its transpose.
     light = np.array(light) / np.linalg.norm(light)
-    light = np.array(group["objectFromGroup"]["rotation"]).reshape(3, 3).T @ light
+    if group["geometry"]["kind"] == "slab":
+        pose = picture_of(manifest, group)["objectFromSlab"]
+        light = np.array(pose["rotation"]).reshape(3, 3).T @ light
 
     basis = manifest["bases"][group["basis"]]
     first = basis["tableOffset"]
@@ -181,25 +220,23 @@ def relight(path, light):
         matrix = np.array(basis["colourMatrix"]).reshape(3, 3)
         b, mean = np.concatenate([scalar * matrix.T for scalar in column]), np.zeros(3)
 
-    width, height, tile = manifest["size"]["width"], manifest["size"]["height"], manifest["tile"]
-    out = np.empty((height, width, 3))
-    for y in range(-(-height // tile)):
-        for x in range(-(-width // tile)):
-            w, h = min(tile, width - x * tile), min(tile, height - y * tile)
-            codes = read_tile(archive.read(f"planes/0/0/{x}_{y}.png"), len(coding["offsets"]), w, h,
-                              coding["bits"] > 8)
-            s = np.array(coding["offsets"])[:, None, None] + coding["step"] * codes
-            plane = s if coding["curve"] == "linear" else s * np.abs(s)
-            colour = mean + np.einsum("khw,kc->hwc", plane, b[coding["functions"]])
-            if manifest["response"] == "display":
-                colour = np.clip(colour, 0, 1)
-                colour = np.where(colour <= 0.04045, colour / 12.92, ((colour + 0.055) / 1.055) ** 2.4)
-            elif manifest["response"] == "cone":
-                colour = np.maximum(colour, 0)
-            if manifest.get("mask", False):
-                mask = Image.open(io.BytesIO(archive.read(f"mask/0/0/{x}_{y}.png")))
-                colour = colour * (np.asarray(mask)[:, :, None] / 255)
-            out[y * tile:y * tile + h, x * tile:x * tile + w] = colour
+    size = picture_of(manifest, group)["size"]
+    out = np.empty((size["height"], size["width"], 3))
+    for name, y, x, h, w in tiles(manifest, group):
+        codes = read_tile(archive.read(f"planes/{index}/0/{name}.png"), len(basis["offsets"]), w, h,
+                          coding["bits"] > 8)
+        s = np.array(basis["offsets"])[:, None, None] + coding["step"] * codes
+        plane = s if coding["curve"] == "linear" else s * np.abs(s)
+        colour = mean + np.einsum("khw,kc->hwc", plane, b[basis["functions"]])
+        if manifest["response"] == "display":
+            colour = np.clip(colour, 0, 1)
+            colour = np.where(colour <= 0.04045, colour / 12.92, ((colour + 0.055) / 1.055) ** 2.4)
+        elif manifest["response"] == "cone":
+            colour = np.maximum(colour, 0)
+        if manifest.get("mask", False):
+            mask = Image.open(io.BytesIO(archive.read(f"mask/{index}/0/{name}.png")))
+            colour = colour * (np.asarray(mask)[:, :, None] / 255)
+        out[y:y + h, x:x + w] = colour
     return out
 
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "illum/basis_table.h"
+#include "illum/camera.h"
 #include "illum/picture.h"
 
 namespace illum {
@@ -23,9 +24,19 @@ class Object {
 
   const std::filesystem::path& path() const;
   const Manifest& manifest() const;
-  Size size() const;
-  int planes() const;
+
+  /// Groups of views, each of one view; at least one.
+  int groups() const;
+  const View& view(int group) const;
+  Size size(int group = 0) const;
+  /// Level l is half as large as level l - 1; 1 where the view fits one tile.
+  int levels(int group = 0) const;
+  int planes(int group = 0) const;
+  /// Looked up in the frame of the group: R^-1 w of a direction w in the object frame
+  /// (camera.h, objectFromGroup).
   const LightBasis& basis(int group) const;
+  bool hasMask() const;
+  bool hasDepth(int group = 0) const;
   std::uint64_t fileBytes() const;  ///< of the archive, or the sum of the folder's files
 
   /// Names of all entries in canonical order.
@@ -36,6 +47,9 @@ class Object {
   PlaneCodes planeTile(int group, int level, int x, int y) const;
   /// 8-bit coverage of one tile; empty if the object has no mask.
   BytePicture maskTile(int group, int level, int x, int y) const;
+  /// Depths of one tile as camera.h's depthOf, row by row, infinity where nothing is; empty if the
+  /// group has none.
+  std::vector<float> depthTile(int group, int level, int x, int y) const;
   /// What is wrong with the archive or folder itself, beyond what open() refuses: one sentence
   /// each.
   std::vector<std::string> containerFaults() const;

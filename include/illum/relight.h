@@ -20,7 +20,8 @@ class Relighter {
 
   /// Linear light, RGB, or RGBA premultiplied if the object has a mask. Exact superposition: each
   /// light passes the object's response by itself unless the response is linear. No clamp, no
-  /// exposure.
+  /// exposure. Lights are
+  /// given in the object frame, whatever the group's is.
   Picture relight(std::span<const DirectionalLight> lights, int group = 0, int level = 0) const;
   /// The same of `region`, a rectangle within that level, alone; only tiles that it touches are
   /// decoded.

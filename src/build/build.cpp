@@ -114,33 +114,21 @@ int tileFor(const BuildOptions& options, const CodingEntry& coding) {
   return tile;
 }
 
-int levelsFor(Size size, int tile) {
-  int levels = 1;
-  for (int side = std::max(size.width, size.height); side > tile; side = (side + 1) / 2) ++levels;
-  return levels;
-}
-
-LightDomain domainOf(const Fit& fit) {
-  return fit.basis.table().domain();
-}
-
 Manifest manifestFor(const Capture& capture, const LightChoice& lights, const BuildOptions& options,
                      Response response, const Plan& plan) {
   const Fit& fit = plan.fit;
   Manifest manifest;
-  manifest.size = capture.size();
-  manifest.coding = plan.quantiser.entry;
-  manifest.tile = tileFor(options, manifest.coding);
-  manifest.levels = levelsFor(manifest.size, manifest.tile);
-  manifest.domain = domainOf(fit);
+  manifest.tile = tileFor(options, plan.quantiser.entry);
   manifest.response = response;
   BasisEntry basis;
   basis.name = fit.basisName;
   basis.coefficients = fit.coefficients > 0 ? fit.coefficients : fit.basis.planes();
   basis.colour = fit.basis.colour();
+  basis.domain = fit.basis.table().domain();
+  basis.coding = plan.quantiser.entry;
   basis.mixing = fit.mixing;
   manifest.bases = {basis};
-  manifest.groups = {GroupEntry{.name = "0", .basis = 0, .views = 1, .objectFromGroup = {}}};
+  for (const View& view : capture.views()) manifest.groups.push_back({view, 0, {}});
   manifest.mask = capture.hasMask();
   manifest.lights = capture.lights();
   manifest.heldOut = lights.heldOut;
@@ -150,14 +138,14 @@ Manifest manifestFor(const Capture& capture, const LightChoice& lights, const Bu
 }
 
 // How many tiles may be coded side by side, or an Error with the least budget.
-int tilesAtOnce(const Manifest& manifest, int basisPlanes, const Capture& capture,
-                std::uint64_t memoryBytes) {
-  const std::uint64_t fixed =
-      kProgramBytes + capture.residentBytes() + planeRowBytes(manifest, basisPlanes);
-  const std::uint64_t each = tileCodingBytes(manifest, basisPlanes);
+int tilesAtOnce(const Manifest& manifest, std::span<const int> planesOfBases,
+                const Capture& capture, std::uint64_t memoryBytes) {
+  const std::uint64_t row = planeRowBytes(manifest, planesOfBases);
+  const std::uint64_t fixed = kProgramBytes + capture.residentBytes() + row;
+  const std::uint64_t each = tileCodingBytes(manifest, planesOfBases);
   if (fixed + each > memoryBytes) {
     // The capture takes its share of a larger budget, so its part of the sum grows too.
-    const std::uint64_t own = planeRowBytes(manifest, basisPlanes) + each;
+    const std::uint64_t own = row + each;
     const std::uint64_t least =
         kProgramBytes +
         std::max(capture.residentBytes() + own,
@@ -167,8 +155,8 @@ int tilesAtOnce(const Manifest& manifest, int basisPlanes, const Capture& captur
         fmt::format("--max-memory {}: this object needs at least {} ({} for a row of tiles, "
                     "{} to code a tile, the rest for photographs and program); a smaller "
                     "--tile needs less",
-                    textFromBytes(memoryBytes), textFromBytes(least),
-                    textFromBytes(planeRowBytes(manifest, basisPlanes)), textFromBytes(each)));
+                    textFromBytes(memoryBytes), textFromBytes(least), textFromBytes(row),
+                    textFromBytes(each)));
   }
   const auto threads = static_cast<std::uint64_t>(tbb::this_task_arena::max_concurrency());
   return static_cast<int>(std::clamp<std::uint64_t>((memoryBytes - fixed) / each, 1, threads));
@@ -176,10 +164,8 @@ int tilesAtOnce(const Manifest& manifest, int basisPlanes, const Capture& captur
 
 std::uint64_t tileCount(const Manifest& manifest) {
   std::uint64_t tiles = 0;
-  for (int level = 0; level < manifest.levels; ++level) {
-    tiles += static_cast<std::uint64_t>(manifest.tilesAcross(level)) *
-             static_cast<std::uint64_t>(manifest.tilesDown(level));
-  }
+  for (int g = 0; g < static_cast<int>(manifest.groups.size()); ++g)
+    tiles += manifest.grid(g).tiles();
   return tiles;
 }
 
@@ -187,16 +173,20 @@ std::uint64_t tileCount(const Manifest& manifest) {
 std::uint64_t writeTiles(const Capture& capture, const LightChoice& lights, const Fit& fit,
                          const Manifest& manifest, const EncodeSettings& settings, int atOnce,
                          ObjectWriter& writer, Progress& progress) {
-  TileWriter tiles(manifest, settings, fit.basis.planes(), atOnce, writer, progress);
-  LevelPyramid pyramid(manifest, fit.basis.planes(), [&](const PlaneRow& row) {
+  TileWriter tiles(manifest, settings, atOnce, writer, progress);
+  LevelPyramid pyramid(manifest, [&](const PlaneRow& row) {
     tiles.write(row);
-    if (row.level + 1 < manifest.levels) return;
-    writer.add("poster.jpg",
-               encodeJpeg(posterOf(row, fit, manifest, lights.directions), kPosterQuality));
+    if (row.group > 0 || row.level + 1 < manifest.grid(0).levels()) return;
+    writer.add("poster.jpg", encodeJpeg(posterOf(row, fit, manifest.response, lights.directions),
+                                        kPosterQuality));
   });
   progress.begin("fitting and coding tiles", tileCount(manifest));
-  RowFitter fitter(capture, lights.used, fit.planes, manifest);
-  for (int row = 0; row < manifest.tilesDown(0); ++row) pyramid.add(fitter.fit(row));
+  RowFitter fitter(capture, lights.used, {&fit.planes}, manifest);
+  for (int group = 0; group < capture.groups(); ++group) {
+    for (int row = 0; row < manifest.grid(group).tilesDown(0); ++row) {
+      pyramid.add(fitter.fit(group, row));
+    }
+  }
   progress.end();
   return tiles.clippedSamples();
 }
@@ -207,7 +197,7 @@ void describe(const Plan& plan, const EncodeSettings& settings, Manifest& manife
   report.warnings = plan.fit.warnings;
   report.leaveOneOutDecibels = plan.fit.leaveOneOutDecibels;
   report.quantisationDecibels = plan.quantiser.decibels;
-  const CodingEntry& coding = manifest.coding;
+  const CodingEntry& coding = manifest.coding();
   report.choices.push_back(
       fmt::format("{} bits, curve {}, step {:.6g}: {} stored planes for {} of the basis; "
                   "quantisation alone {:.1f} dB",
@@ -251,10 +241,11 @@ BuildReport buildObject(const Capture& source, const std::filesystem::path& out,
     settings.quality = options.quality >= 0 ? options.quality : kDefaultQuality;
     settings.speed = options.speed >= 0 ? options.speed : kDefaultSpeed;
     Manifest manifest = manifestFor(capture, lights, options, response, plan);
-    manifest.coding.quality = settings.quality;
+    for (BasisEntry& basis : manifest.bases) basis.coding.quality = settings.quality;
     describe(plan, settings, manifest, report);
 
-    const int atOnce = tilesAtOnce(manifest, plan.fit.basis.planes(), capture, memoryBytes);
+    const std::vector<int> planesOfBases{plan.fit.basis.planes()};
+    const int atOnce = tilesAtOnce(manifest, planesOfBases, capture, memoryBytes);
     const std::uint64_t clipped =
         writeTiles(capture, lights, plan.fit, manifest, settings, atOnce, writer, progress);
     if (clipped > 0) {

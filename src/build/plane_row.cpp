@@ -13,12 +13,14 @@ namespace {
 constexpr int kPatchWidth = 512, kPatchHeight = 8;
 
 // Sizes `out` for a row of tiles. What was in it stays where it is not written.
-void beginRow(const Manifest& manifest, int planes, int level, int row, PlaneRow& out) {
-  const Size whole = manifest.sizeAt(level);
+void beginRow(const Manifest& manifest, std::size_t planes, int group, int level, int row,
+              PlaneRow& out) {
+  const Size whole = manifest.grid(group).sizeAt(level);
+  out.group = group;
   out.level = level;
   out.row = row;
   out.size = {whole.width, std::min(manifest.tile, whole.height - row * manifest.tile)};
-  out.values.resize(static_cast<std::size_t>(planes) * out.size.pixels());
+  out.values.resize(planes * out.size.pixels());
   if (manifest.mask) out.coverage.resize(out.size.pixels());
 }
 
@@ -33,21 +35,27 @@ struct RowFitter::State {
 };
 
 RowFitter::RowFitter(const Capture& capture, std::span<const int> lights,
-                     const PlaneOperator& planes, const Manifest& manifest)
+                     std::vector<const PlaneOperator*> operators, const Manifest& manifest)
     : capture_(capture),
       lights_(lights),
-      operator_(planes),
+      operators_(std::move(operators)),
       manifest_(manifest),
       state_(std::make_unique<State>()) {}
 RowFitter::~RowFitter() = default;
 
+const PlaneOperator& RowFitter::operatorOf(int group) const {
+  const int basis = manifest_.groups[static_cast<std::size_t>(group)].basis;
+  return *operators_[static_cast<std::size_t>(basis)];
+}
+
 // Fits one patch (in picture coordinates) into the row of tiles that begins at picture row `top`.
 void RowFitter::fitPatch(const Rectangle& patch, int top, Scratch& scratch) {
-  const std::size_t pixels = patch.pixels();
+  const PlaneOperator& toPlanes = operatorOf(row_.group);
+  const std::size_t pixels = patch.pixels(), planes = static_cast<std::size_t>(toPlanes.planes);
   scratch.samples.resize(3 * lights_.size() * pixels);
-  scratch.planes.resize(static_cast<std::size_t>(operator_.planes) * pixels);
-  capture_.read(0, patch, lights_, scratch.samples);
-  operator_.apply(scratch.samples, pixels, scratch.planes);
+  scratch.planes.resize(planes * pixels);
+  capture_.read(row_.group, patch, lights_, scratch.samples);
+  toPlanes.apply(scratch.samples, pixels, scratch.planes);
   const auto store = [&](const float* from, float* plane) {
     for (int y = 0; y < patch.height; ++y, from += patch.width) {
       const auto at =
@@ -56,17 +64,17 @@ void RowFitter::fitPatch(const Rectangle& patch, int top, Scratch& scratch) {
       std::copy_n(from, patch.width, plane + at);
     }
   };
-  for (std::size_t k = 0; k < static_cast<std::size_t>(operator_.planes); ++k) {
+  for (std::size_t k = 0; k < planes; ++k) {
     store(scratch.planes.data() + k * pixels, row_.values.data() + k * row_.size.pixels());
   }
   if (row_.coverage.empty()) return;
   scratch.coverage.resize(pixels);
-  capture_.readMask(0, patch, scratch.coverage);
+  capture_.readMask(row_.group, patch, scratch.coverage);
   store(scratch.coverage.data(), row_.coverage.data());
 }
 
-const PlaneRow& RowFitter::fit(int row) {
-  beginRow(manifest_, operator_.planes, 0, row, row_);
+const PlaneRow& RowFitter::fit(int group, int row) {
+  beginRow(manifest_, static_cast<std::size_t>(operatorOf(group).planes), group, 0, row, row_);
   const int top = row * manifest_.tile, bottom = top + row_.size.height;
   const int across = (row_.size.width + kPatchWidth - 1) / kPatchWidth;
   for (int y = top; y < bottom;) {
@@ -85,26 +93,35 @@ const PlaneRow& RowFitter::fit(int row) {
   return row_;
 }
 
-std::uint64_t planeRowBytes(const Manifest& manifest, int basisPlanes) {
-  const auto row = static_cast<std::uint64_t>(manifest.size.width) *
-                   static_cast<std::uint64_t>(std::min(manifest.tile, manifest.size.height)) *
-                   (static_cast<std::uint64_t>(basisPlanes) + 1) * sizeof(float);
-  return 2 * row;  // level l in flight is half as wide as level l-1
+std::uint64_t planeRowBytes(const Manifest& manifest, std::span<const int> planesOfBases) {
+  std::uint64_t most = 0;
+  for (const GroupEntry& group : manifest.groups) {
+    const Size size = sizeOf(group.view.geometry);
+    const auto planes =
+        static_cast<std::uint64_t>(planesOfBases[static_cast<std::size_t>(group.basis)]);
+    const auto pixels = Size{size.width, std::min(manifest.tile, size.height)}.pixels();
+    most = std::max<std::uint64_t>(most, pixels * (planes + 1) * sizeof(float));
+  }
+  return 2 * most;  // level l in flight is half as wide as level l-1
 }
 
 void LevelPyramid::add(const PlaneRow& row) {
   emit_(row);
+  const TileGrid grid = manifest_.grid(row.group);
   const int next = row.level + 1;
-  if (next >= manifest_.levels) return;
+  if (next >= grid.levels()) return;
+  pending_.resize(std::max(pending_.size(), static_cast<std::size_t>(grid.levels())));
   auto& pending = pending_[static_cast<std::size_t>(next)];
-  if (row.row % 2 == 0) beginRow(manifest_, planes_, next, row.row / 2, pending);
+  const std::size_t planes = row.values.size() / row.size.pixels();
+  if (row.row % 2 == 0) beginRow(manifest_, planes, row.group, next, row.row / 2, pending);
   shrinkInto(row, pending);
-  if (row.row % 2 == 1 || row.row == manifest_.tilesDown(row.level) - 1) add(pending);
+  if (row.row % 2 == 1 || row.row == grid.tilesDown(row.level) - 1) add(pending);
 }
 
 void LevelPyramid::shrinkInto(const PlaneRow& fine, PlaneRow& coarse) const {
   const int top = fine.row % 2 * (manifest_.tile / 2);
   const int height = (fine.size.height + 1) / 2;
+  const std::size_t planes = fine.values.size() / fine.size.pixels();
   const auto fineWidth = static_cast<std::size_t>(fine.size.width);
   // The mean over the block's texels inside the picture; hidden ones count little, but are never
   // lost.
@@ -126,7 +143,7 @@ void LevelPyramid::shrinkInto(const PlaneRow& fine, PlaneRow& coarse) const {
           static_cast<std::size_t>(x);
       float weights[4], sum = 0, covered = 0;
       for (std::size_t i = 0; i < count; ++i) sum += weights[i] = weightOf(texels[i]);
-      for (std::size_t k = 0; k < static_cast<std::size_t>(planes_); ++k) {
+      for (std::size_t k = 0; k < planes; ++k) {
         const float* plane = fine.values.data() + k * fine.size.pixels();
         float mean = 0;
         for (std::size_t i = 0; i < count; ++i) mean += weights[i] * plane[texels[i]];

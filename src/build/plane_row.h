@@ -12,10 +12,10 @@
 
 namespace illum {
 
-/// All planes of one row of tiles of one level: plane k at values[k * size.pixels() + y * width +
-/// x].
+/// All planes of one row of tiles of one level of a group: plane k at values[k * size.pixels() + y
+/// * width + x].
 struct PlaneRow {
-  int level = 0, row = 0;
+  int group = 0, level = 0, row = 0;
   Size size;
   std::vector<float> values;
   std::vector<float> coverage;  ///< empty without a mask
@@ -25,31 +25,33 @@ struct PlaneRow {
 /// quarter of the time (docs/performance.md).
 class RowFitter {
  public:
-  /// All must outlive the fitter.
-  RowFitter(const Capture& capture, std::span<const int> lights, const PlaneOperator& planes,
-            const Manifest& manifest);
+  /// `operators`: one a basis of the manifest. All must outlive the fitter.
+  RowFitter(const Capture& capture, std::span<const int> lights,
+            std::vector<const PlaneOperator*> operators, const Manifest& manifest);
   ~RowFitter();
 
-  /// Reads and fits row `row`, in parallel. Rows are asked for from the top down: a sequential
-  /// capture would have to go back otherwise. What is returned holds until the next call.
-  const PlaneRow& fit(int row);
+  /// Reads and fits row `row` of a group, in parallel. Rows are asked for from the top down: a
+  /// sequential capture would have to go back otherwise. What is returned holds until the next
+  /// call.
+  const PlaneRow& fit(int group, int row);
 
  private:
   struct Scratch;
   struct State;
+  const PlaneOperator& operatorOf(int group) const;
   void fitPatch(const Rectangle& patch, int top, Scratch& scratch);
 
   const Capture& capture_;
   std::span<const int> lights_;
-  const PlaneOperator& operator_;
+  std::vector<const PlaneOperator*> operators_;
   const Manifest& manifest_;
   PlaneRow row_;
   std::unique_ptr<State> state_;
 };
 
-/// Bytes that fitted rows take for the widest row of `manifest`, all levels in flight
-/// included.
-std::uint64_t planeRowBytes(const Manifest& manifest, int basisPlanes);
+/// Bytes that fitted rows take for the largest row of any group, all levels in flight included.
+/// `planesOfBases`: of each basis of the manifest.
+std::uint64_t planeRowBytes(const Manifest& manifest, std::span<const int> planesOfBases);
 
 /// Makes level l+1 from level l by 2 x 2 averages (weighted by coverage), row of tiles by row of
 /// tiles.
@@ -57,20 +59,16 @@ class LevelPyramid {
  public:
   using Emit = std::function<void(const PlaneRow&)>;
 
-  LevelPyramid(const Manifest& manifest, int basisPlanes, Emit emit)
-      : manifest_(manifest),
-        planes_(basisPlanes),
-        emit_(std::move(emit)),
-        pending_(static_cast<std::size_t>(manifest.levels)) {}
+  LevelPyramid(const Manifest& manifest, Emit emit) : manifest_(manifest), emit_(std::move(emit)) {}
 
-  /// Takes the rows of level 0 in order; emits each, and every coarser row as soon as it is whole.
+  /// Takes the rows of level 0 of a group in order, and of one group after another; emits each,
+  /// and every coarser row as soon as it is whole.
   void add(const PlaneRow& row);
 
  private:
   void shrinkInto(const PlaneRow& fine, PlaneRow& coarse) const;
 
   const Manifest& manifest_;
-  int planes_;
   Emit emit_;
   std::vector<PlaneRow> pending_;  // by level; their buffers are used again
 };

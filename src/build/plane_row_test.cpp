@@ -42,11 +42,10 @@ class RampCapture final : public Capture {
   std::vector<LightFileEntry> lights_;
 };
 
-Manifest manifestFor(Size size, int tile, int levels, bool mask) {
+Manifest manifestFor(Size size, int tile, bool mask) {
   Manifest manifest;
-  manifest.size = size;
+  manifest.groups = {{{"ramp", OrthographicView{size}}, 0, {}}};
   manifest.tile = tile;
-  manifest.levels = levels;
   manifest.mask = mask;
   return manifest;
 }
@@ -60,12 +59,12 @@ TEST(RowFitter, EveryTexelOfEveryRowIsFitted) {
   for (const int band : {3, 8, 64, 1000}) {
     const Size size{1101, 150};
     const RampCapture capture(size, band, false);
-    const auto manifest = manifestFor(size, 64, 1, false);
+    const auto manifest = manifestFor(size, 64, false);
     const auto op = twoPlanes();
     const std::vector<int> lights{0};
-    RowFitter fitter(capture, lights, op, manifest);
+    RowFitter fitter(capture, lights, {&op}, manifest);
     for (int row = 0; row < 3; ++row) {
-      const PlaneRow& out = fitter.fit(row);
+      const PlaneRow& out = fitter.fit(0, row);
       ASSERT_EQ(out.size.height, row < 2 ? 64 : 22);
       for (int y = 0; y < out.size.height; ++y) {
         for (int x = 0; x < size.width; ++x) {
@@ -85,18 +84,18 @@ struct Seen {
 };
 
 Seen runPyramid(Size size, bool mask) {
-  const auto manifest = manifestFor(size, 64, 3, mask);
+  const auto manifest = manifestFor(size, 64, mask);
   const RampCapture capture(size, 64, mask);
   const auto op = twoPlanes();
   const std::vector<int> lights{0};
   Seen seen;
   seen.last.resize(3);
-  LevelPyramid pyramid(manifest, 2, [&](const PlaneRow& row) {
+  LevelPyramid pyramid(manifest, [&](const PlaneRow& row) {
     seen.rows.emplace_back(row.level, row.row);
     seen.last[static_cast<std::size_t>(row.level)] = row;
   });
-  RowFitter fitter(capture, lights, op, manifest);
-  for (int row = 0; row < manifest.tilesDown(0); ++row) pyramid.add(fitter.fit(row));
+  RowFitter fitter(capture, lights, {&op}, manifest);
+  for (int row = 0; row < manifest.grid(0).tilesDown(0); ++row) pyramid.add(fitter.fit(0, row));
   return seen;
 }
 

@@ -40,7 +40,7 @@ Picture scaledDown(const Picture& picture, int factor) {
 
 }  // namespace
 
-BytePicture posterOf(const PlaneRow& coarsest, const Fit& fit, const Manifest& manifest,
+BytePicture posterOf(const PlaneRow& coarsest, const Fit& fit, Response response,
                      std::span<const DirectionalLight> lights) {
   std::vector<float> basis(fit.basis.evaluateSize());
   fit.basis.evaluate(posterLight(lights), basis);
@@ -58,7 +58,7 @@ BytePicture posterOf(const PlaneRow& coarsest, const Fit& fit, const Manifest& m
       }
       out[3 * p + c] = sum;
     }
-    applyResponse(manifest.response, out.subspan(3 * p, 3));
+    applyResponse(response, out.subspan(3 * p, 3));
     for (std::size_t c = 0; c < 3; ++c) out[3 * p + c] *= coverage;
   }
   const int longer = std::max(picture.width(), picture.height());

@@ -10,9 +10,10 @@
 
 namespace illum {
 
-/// The coarsest level under the captured light nearest to the upper left, scaled down by a whole
-/// factor to at most kPosterSide a side; black where the mask hides.
-BytePicture posterOf(const PlaneRow& coarsest, const Fit& fit, const Manifest& manifest,
+/// A view's coarsest level under the captured light nearest to the upper left, scaled down by a
+/// whole factor to at most kPosterSide a side; black where the mask hides. `lights` are those of
+/// the fit.
+BytePicture posterOf(const PlaneRow& coarsest, const Fit& fit, Response response,
                      std::span<const DirectionalLight> lights);
 
 inline constexpr int kPosterSide = 384;

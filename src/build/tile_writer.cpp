@@ -36,7 +36,7 @@ void TileWriter::write(const PlaneRow& row) {
   tbb::task_arena arena(atOnce_);
   arena.execute([&] {
     tbb::parallel_for(
-        0, manifest_.tilesAcross(row.level),
+        0, manifest_.grid(row.group).tilesAcross(row.level),
         [&](int x) {
           writeTile(row, x);
           if (manifest_.mask) writeMask(row, x);
@@ -47,34 +47,40 @@ void TileWriter::write(const PlaneRow& row) {
 }
 
 void TileWriter::writeTile(const PlaneRow& row, int x) {
-  const std::string name = planeTileName(manifest_, 0, row.level, x, row.row);
+  const std::string name = planeTileName(manifest_, row.group, row.level, x, row.row);
   if (writer_.has(name)) return;
-  const Rectangle tile = manifest_.tileRectangle(row.level, x, row.row);
+  const Rectangle tile = manifest_.grid(row.group).tileRectangle(row.level, x, row.row);
   auto planes = cut(row.values, row.size, tile);
   if (manifest_.mask) fillHidden(planes, cut(row.coverage, row.size, tile), tile.size());
   std::uint64_t clipped = 0;
-  const auto codes = quantise(manifest_.coding, planes, tile.size(), clipped);
+  const CodingEntry& coding = manifest_.coding(row.group);
+  const auto codes = quantise(coding, planes, tile.size(), clipped);
   clipped_ += clipped;
-  writer_.add(name, encodeTile(codes, manifest_.coding.coding, manifest_.coding.bits, settings_));
+  writer_.add(name, encodeTile(codes, coding.coding, coding.bits, settings_));
 }
 
 void TileWriter::writeMask(const PlaneRow& row, int x) {
-  const std::string name = maskTileName(manifest_, 0, row.level, x, row.row);
+  const std::string name = maskTileName(manifest_, row.group, row.level, x, row.row);
   if (writer_.has(name)) return;
-  const Rectangle tile = manifest_.tileRectangle(row.level, x, row.row);
+  const Rectangle tile = manifest_.grid(row.group).tileRectangle(row.level, x, row.row);
   const auto coverage = cut(row.coverage, row.size, tile);
   BytePicture picture(tile.size(), 1);
   std::transform(coverage.begin(), coverage.end(), picture.samples().begin(), byteFromUnit);
   writer_.add(name, encodePng(picture));
 }
 
-std::uint64_t tileCodingBytes(const Manifest& manifest, int basisPlanes) {
-  const auto pixels = static_cast<std::uint64_t>(std::min(manifest.tile, manifest.size.width)) *
-                      static_cast<std::uint64_t>(std::min(manifest.tile, manifest.size.height));
-  const auto stored = static_cast<std::uint64_t>(manifest.planes());
-  // Planes cut out as floats, codes, and libaom's frames and side data. The 24 bytes a sample are
-  // an estimate that the tests of --max-memory hold, not a measurement of libaom.
-  return pixels * (4 * static_cast<std::uint64_t>(basisPlanes) + (2 + 24) * stored);
+std::uint64_t tileCodingBytes(const Manifest& manifest, std::span<const int> planesOfBases) {
+  std::uint64_t most = 0;
+  for (int g = 0; g < static_cast<int>(manifest.groups.size()); ++g) {
+    const auto basis = static_cast<std::size_t>(manifest.groups[static_cast<std::size_t>(g)].basis);
+    const std::uint64_t pixels = manifest.grid(g).tileRectangle(0, 0, 0).pixels();
+    const auto planes = static_cast<std::uint64_t>(planesOfBases[basis]);
+    const auto stored = static_cast<std::uint64_t>(manifest.coding(g).planes());
+    // Planes cut out as floats, codes, and libaom's frames and side data. The 24 bytes a sample are
+    // an estimate that the tests of --max-memory hold, not a measurement of libaom.
+    most = std::max(most, pixels * (4 * planes + (2 + 24) * stored));
+  }
+  return most;
 }
 
 }  // namespace illum

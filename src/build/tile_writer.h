@@ -4,6 +4,7 @@
 
 #include <atomic>
 #include <cstdint>
+#include <span>
 
 #include "build/plane_row.h"
 #include "encode/encode_tile.h"
@@ -16,11 +17,10 @@ namespace illum {
 class TileWriter {
  public:
   /// `atOnce`: tiles coded side by side, which bounds memory.
-  TileWriter(const Manifest& manifest, const EncodeSettings& settings, int basisPlanes, int atOnce,
+  TileWriter(const Manifest& manifest, const EncodeSettings& settings, int atOnce,
              ObjectWriter& writer, Progress& progress)
       : manifest_(manifest),
         settings_(settings),
-        basisPlanes_(basisPlanes),
         atOnce_(atOnce),
         writer_(writer),
         progress_(progress) {}
@@ -36,13 +36,14 @@ class TileWriter {
 
   const Manifest& manifest_;
   EncodeSettings settings_;
-  int basisPlanes_, atOnce_;
+  int atOnce_;
   ObjectWriter& writer_;
   Progress& progress_;
   std::atomic<std::uint64_t> clipped_ = 0;
 };
 
-/// Bytes that coding one full tile takes beside the row itself, an estimate.
-std::uint64_t tileCodingBytes(const Manifest& manifest, int basisPlanes);
+/// Bytes that coding the largest tile of any group takes beside the row itself, an estimate.
+/// `planesOfBases`: of each basis of the manifest.
+std::uint64_t tileCodingBytes(const Manifest& manifest, std::span<const int> planesOfBases);
 
 }  // namespace illum

@@ -6,6 +6,7 @@
 #include <cassert>
 #include <cmath>
 
+#include "codec/depth_tile.h"
 #include "encode/tile_encoders.h"
 #include "illum/error.h"
 
@@ -46,6 +47,21 @@ std::vector<std::byte> encodeTile(const PlaneCodes& codes, Coding coding, int bi
 std::vector<std::byte> encodeMaskTile(const BytePicture& coverage) {
   assert(coverage.channels() == 1);
   return encodePngSamples(coverage.samples(), coverage.size(), 1);
+}
+
+std::vector<std::byte> encodeDepthTile(std::span<const std::uint16_t> codes, Size tile, int steps) {
+  assert(codes.size() == tile.pixels());
+  assert(std::all_of(codes.begin(), codes.end(),
+                     [=](std::uint16_t code) { return code <= steps || code == kNoDepth; }));
+  std::vector<std::uint8_t> samples;
+  if (fitsGreyDepth(steps)) {
+    for (const std::uint16_t code : codes) samples.push_back(static_cast<std::uint8_t>(code));
+    return encodePngSamples(samples, tile, 1);
+  }
+  for (const std::uint16_t code : codes)
+    samples.insert(samples.end(), {static_cast<std::uint8_t>(code >> 8),
+                                   static_cast<std::uint8_t>(code & 255), std::uint8_t{0}});
+  return encodePngSamples(samples, tile, 3);
 }
 
 int jpegStep(int quality) {

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <span>
 #include <vector>
 
 #include "codec/tile.h"
@@ -22,6 +24,9 @@ std::vector<std::byte> encodeTile(const PlaneCodes& codes, Coding coding, int bi
 
 /// A mask's tile: 1 channel of coverage as a grey PNG.
 std::vector<std::byte> encodeMaskTile(const BytePicture& coverage);
+
+/// A depth's tile: codes of 0 ... `steps` and kNoDepth, row by row (codec/depth_tile.h).
+std::vector<std::byte> encodeDepthTile(std::span<const std::uint16_t> codes, Size tile, int steps);
 
 /// The step of the flat quantisation table of JPEG tiles: 2^((100 - quality) / 12.5), rounded, at
 /// most 255. So 100 gives 1, 75 gives 4, 50 gives 16, 25 gives 64.

@@ -202,7 +202,7 @@ TEST_F(HostileObject, ZipBombsAreRefusedBeforeTheyUnfold) {
   {
     auto entries = rawSample(tiny());
     entryOf(entries, "object.json") = deflatedEntry("object.json", asBytes(spaces));
-    EXPECT_THAT(errorOfOpening(entries), HasSubstr("object.json: expected at most 16777216 bytes"));
+    EXPECT_THAT(errorOfOpening(entries), HasSubstr("object.json: expected at most 50331648 bytes"));
     // The same with a lie about the size: nothing beyond what was declared is unfolded.
     entryOf(entries, "object.json").size = 1000;
     EXPECT_THAT(errorOfOpening(entries), HasSubstr("object.json is damaged"));
@@ -344,7 +344,7 @@ TEST_F(HostileObject, AFutureVersionIsRefusedWithItsSentence) {
 
 TEST_F(HostileObject, HugeDeclaredPicturesCostNothing) {
   const auto entries = withManifest([](auto& root) {
-    root["size"] = {{"width", 1 << 20}, {"height", 1 << 20}};
+    root["groups"][0]["size"] = {{"width", 1 << 20}, {"height", 1 << 20}};
     root["tile"] = 1360;
   });
   EXPECT_EQ(errorOfOpening(entries), "");
@@ -373,8 +373,9 @@ TEST_F(HostileObject, ATableThatIsNotTheManifestsIsAnError) {
                 root["bases"][0]["mixing"] = nlohmann::json::array();
               })),
               HasSubstr("expected a table of 5 columns"));
-  EXPECT_THAT(errorOfOpening(withManifest([](auto& root) { root["domain"] = "sphere"; })),
-              HasSubstr("over another domain"));
+  EXPECT_THAT(
+      errorOfOpening(withManifest([](auto& root) { root["bases"][0]["domain"] = "sphere"; })),
+      HasSubstr("over another domain"));
 }
 
 TEST_F(HostileObject, TilesBeyondTheObjectAreWrongUsage) {

@@ -94,7 +94,7 @@ TEST_P(BothForms, WhatIsWrittenIsRead) {
     EXPECT_EQ(object.size(), options.size);
     EXPECT_EQ(object.planes(), 12);
     EXPECT_EQ(object.basis(0).planes(), 12);
-    EXPECT_EQ(object.maskTile(0, 0, 1, 1), sampleMask(object.manifest(), 0, 1, 1));
+    EXPECT_EQ(object.maskTile(0, 0, 1, 1), sampleMask(object.manifest(), 0, 0, 1, 1));
   }
 }
 
@@ -106,10 +106,11 @@ TEST_P(BothForms, LosslessTilesComeBackExactlyAtEveryDepth) {
     writeSampleObject(folder / "a", GetParam(), options);
     const Object object = Object::open(folder / "a");
     const Manifest& m = object.manifest();
-    for (int level = 0; level < m.levels; ++level)
-      for (int y = 0; y < m.tilesDown(level); ++y)
-        for (int x = 0; x < m.tilesAcross(level); ++x)
-          EXPECT_EQ(object.planeTile(0, level, x, y), sampleCodes(m, level, x, y))
+    const TileGrid grid = m.grid(0);
+    for (int level = 0; level < grid.levels(); ++level)
+      for (int y = 0; y < grid.tilesDown(level); ++y)
+        for (int x = 0; x < grid.tilesAcross(level); ++x)
+          EXPECT_EQ(object.planeTile(0, level, x, y), sampleCodes(m, 0, level, x, y))
               << bits << " bits, level " << level << ", tile " << x << "," << y;
   }
 }
@@ -124,7 +125,7 @@ TEST_P(BothForms, ManyThreadsReadOneObject) {
     threads.emplace_back([&object, &count] {
       for (int i = 0; i < 40; ++i) {
         const int x = i % 2, y = i / 2 % 2;
-        count += object.planeTile(0, 0, x, y) == sampleCodes(object.manifest(), 0, x, y);
+        count += object.planeTile(0, 0, x, y) == sampleCodes(object.manifest(), 0, 0, x, y);
       }
     });
   for (auto& thread : threads) thread.join();

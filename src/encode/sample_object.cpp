@@ -50,35 +50,66 @@ std::vector<std::byte> bytesOf(const std::string& text) {
 
 }  // namespace
 
+std::vector<View> sampleViews() {
+  LightSlab front;
+  front.name = "front";
+  front.distance = 3;
+  front.uv = {-0.5, -0.25, 0.5, 0.25};
+  front.uCount = 3;
+  front.vCount = 2;
+  front.size = {70, 40};
+  LightSlab side = front;
+  side.name = "side";
+  side.objectFromSlab = rotationAbout(Direction::fromVector({0, 1, 0}), 1.5);
+  side.objectFromSlab.translation = {0.25, 0, -0.5};
+  side.size = {33, 50};
+  const RigidTransform pose = lookAt({1, 2, 3}, {0, 0, 0}, {0, 1, 0});
+  return {
+      {"front 0,0", SlabView{front, 0, 0}},
+      {"front 2,1", SlabView{front, 2, 1}},
+      {"side 1,1", SlabView{side, 1, 1}},
+      {"camera", PinholeCamera{pose, 80, 81, {20.5, 16}, {40, 32}}},
+      {"around", Panorama{Panorama::Projection::Cylindrical, pose, {-3, -0.5, 3, 0.5}, {90, 20}}},
+      {"sphere", Panorama{Panorama::Projection::Equirectangular, pose, {}, {64, 32}}}};
+}
+
 Manifest sampleManifest(const SampleOptions& options) {
   Manifest m;
-  m.size = options.size;
   m.tile = options.tile;
-  m.levels = std::max(options.size.width, options.size.height) > options.tile ? 2 : 1;
   m.response = options.response;
-  m.domain = options.domain;
-  m.coding.coding = options.coding;
-  m.coding.bits = options.bits;
-  m.coding.curve = options.curve;
-  m.coding.step = std::ldexp(1.0, -options.bits);
-  m.coding.quality = options.quality;
-  const int functions = static_cast<int>(options.fullBasis ? kFullPlanes : 3 * kCoefficients);
-  for (int k = 0; k < functions; ++k) {
-    m.coding.offsets.push_back(k < 3 ? 0 : -0.5);
-    m.coding.functions.push_back(k);
-  }
   BasisEntry basis;
   basis.name = options.fullBasis ? "learned" : "sh";
   basis.coefficients = static_cast<int>(options.fullBasis ? kFullPlanes : kCoefficients);
+  basis.domain = options.domain;
   basis.tableBytes = 1;
+  CodingEntry& coding = basis.coding;
+  coding.coding = options.coding;
+  coding.bits = options.bits;
+  coding.curve = options.curve;
+  coding.step = std::ldexp(1.0, -options.bits);
+  coding.quality = options.quality;
+  const int functions = static_cast<int>(options.fullBasis ? kFullPlanes : 3 * kCoefficients);
+  for (int k = 0; k < functions; ++k) {
+    coding.offsets.push_back(k < 3 ? 0 : -0.5);
+    coding.functions.push_back(k);
+  }
   if (options.fullBasis) {
     basis.colour.kind = BasisColour::Kind::Full;
     // One function more in two planes: the range of one is not enough for it.
-    m.coding.offsets.push_back(-0.25);
-    m.coding.functions.push_back(1);
+    coding.offsets.push_back(-0.25);
+    coding.functions.push_back(1);
   }
-  m.bases.push_back(basis);
-  m.groups.push_back({"photograph", 0, 1, {}});
+  for (int b = 0; b < options.bases; ++b) {
+    m.bases.push_back(basis);
+    for (double& offset : basis.coding.offsets) offset += 0.125;
+  }
+  std::vector<View> views = options.views;
+  if (views.empty()) views.push_back({"photograph", OrthographicView{options.size}});
+  for (std::size_t g = 0; g < views.size(); ++g) {
+    GroupEntry group{views[g], static_cast<int>(g) % options.bases, {}};
+    if (options.depthSteps > 0) group.depth = {-1, 0.5, options.depthSteps};
+    m.groups.push_back(group);
+  }
   m.mask = options.mask;
   m.lights.push_back({"left.jpg", {Direction::fromVector({-0.6, 0, 0.8}), {1, 1, 1}}, 0});
   m.lights.push_back({"above.jpg", {Direction::fromVector({0, 0.6, 0.8}), {1, 0.5f, 2}}, 0});
@@ -88,24 +119,25 @@ Manifest sampleManifest(const SampleOptions& options) {
   return m;
 }
 
-PlaneCodes sampleCodes(const Manifest& manifest, int level, int x, int y) {
-  const Rectangle area = manifest.tileRectangle(level, x, y);
-  PlaneCodes codes{manifest.planes(), area.size(), {}};
+PlaneCodes sampleCodes(const Manifest& manifest, int group, int level, int x, int y) {
+  const CodingEntry& coding = manifest.coding(group);
+  const Rectangle area = manifest.grid(group).tileRectangle(level, x, y);
+  PlaneCodes codes{coding.planes(), area.size(), {}};
   codes.values.reserve(static_cast<std::size_t>(codes.planes) * area.pixels());
-  const double scale = std::ldexp(1.0, level), largest = std::ldexp(1.0, manifest.coding.bits) - 1;
+  const double scale = std::ldexp(1.0, level), largest = std::ldexp(1.0, coding.bits) - 1;
   for (int k = 0; k < codes.planes; ++k)
     for (int row = area.y; row < area.bottom(); ++row)
       for (int column = area.x; column < area.right(); ++column) {
         // Triangle waves: exact in binary, so that no library's sine decides a frozen byte.
-        const double t = (3 * column + 5 * row + 7 * k) * scale / 64 + k / 16.0;
+        const double t = (3 * column + 5 * row + 7 * k + group) * scale / 64 + k / 16.0;
         const double wave = std::abs(t - 2 * std::floor(t / 2) - 1);
         codes.values.push_back(static_cast<std::uint16_t>(std::lround(wave * largest)));
       }
   return codes;
 }
 
-BytePicture sampleMask(const Manifest& manifest, int level, int x, int y) {
-  const Rectangle area = manifest.tileRectangle(level, x, y);
+BytePicture sampleMask(const Manifest& manifest, int group, int level, int x, int y) {
+  const Rectangle area = manifest.grid(group).tileRectangle(level, x, y);
   BytePicture mask(area.size(), 1);
   for (int row = 0; row < area.height; ++row)
     for (int column = 0; column < area.width; ++column)
@@ -113,33 +145,57 @@ BytePicture sampleMask(const Manifest& manifest, int level, int x, int y) {
   return mask;
 }
 
+std::vector<std::uint16_t> sampleDepth(const Manifest& manifest, int group, int level, int x,
+                                       int y) {
+  const Rectangle area = manifest.grid(group).tileRectangle(level, x, y);
+  const int steps = manifest.groups[static_cast<std::size_t>(group)].depth->steps;
+  std::vector<std::uint16_t> codes;
+  for (int row = area.y; row < area.bottom(); ++row)
+    for (int column = area.x; column < area.right(); ++column) {
+      const bool hole = (row + column) % 7 == 0;
+      const int code = std::min(steps, (3 * row + 2 * column) * steps / 300);
+      codes.push_back(hole ? kNoDepth : static_cast<std::uint16_t>(code));
+    }
+  return codes;
+}
+
 Entries sampleEntries(const SampleOptions& options) {
   Manifest manifest = sampleManifest(options);
   const auto table = sampleTable(options).encode();
-  manifest.bases.front().tableBytes = table.size();
+  for (BasisEntry& basis : manifest.bases) basis.tableBytes = table.size();
   Entries entries;
   entries.emplace_back(kManifestEntry, bytesOf(textOf(manifest)));
   entries.emplace_back(kBasisEntry, table);
   if (options.poster) {
-    PlaneCodes poster = sampleCodes(manifest, 0, 0, 0);
+    PlaneCodes poster = sampleCodes(manifest, 0, 0, 0, 0);
     for (auto& value : poster.values)
       value = static_cast<std::uint16_t>(value >> (options.bits - 8));
     entries.emplace_back(kPosterEntry, encodeTile(poster, Coding::Jpeg, 8, {}));
   }
   const auto forEachTile = [&](const auto& add) {
-    for (int level = 0; level < manifest.levels; ++level)
-      for (int y = 0; y < manifest.tilesDown(level); ++y)
-        for (int x = 0; x < manifest.tilesAcross(level); ++x) add(level, x, y);
+    for (int group = 0; group < static_cast<int>(manifest.groups.size()); ++group) {
+      const TileGrid grid = manifest.grid(group);
+      for (int level = 0; level < grid.levels(); ++level)
+        for (int y = 0; y < grid.tilesDown(level); ++y)
+          for (int x = 0; x < grid.tilesAcross(level); ++x) add(group, level, x, y);
+    }
   };
-  forEachTile([&](int level, int x, int y) {
-    entries.emplace_back(planeTileName(manifest, 0, level, x, y),
-                         encodeTile(sampleCodes(manifest, level, x, y), options.coding,
+  forEachTile([&](int group, int level, int x, int y) {
+    entries.emplace_back(planeTileName(manifest, group, level, x, y),
+                         encodeTile(sampleCodes(manifest, group, level, x, y), options.coding,
                                     options.bits, {options.quality, 8}));
   });
+  if (options.depthSteps > 0)
+    forEachTile([&](int group, int level, int x, int y) {
+      const Size tile = manifest.grid(group).tileRectangle(level, x, y).size();
+      entries.emplace_back(
+          depthTileName(manifest, group, level, x, y),
+          encodeDepthTile(sampleDepth(manifest, group, level, x, y), tile, options.depthSteps));
+    });
   if (options.mask)
-    forEachTile([&](int level, int x, int y) {
-      entries.emplace_back(maskTileName(manifest, 0, level, x, y),
-                           encodeMaskTile(sampleMask(manifest, level, x, y)));
+    forEachTile([&](int group, int level, int x, int y) {
+      entries.emplace_back(maskTileName(manifest, group, level, x, y),
+                           encodeMaskTile(sampleMask(manifest, group, level, x, y)));
     });
   return entries;
 }

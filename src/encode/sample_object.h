@@ -24,15 +24,23 @@ struct SampleOptions {
   Curve curve = Curve::Linear;
   Response response = Response::Linear;
   LightDomain domain = LightDomain::Hemisphere;
-  bool fullBasis = false;  ///< b_k and a mean in RGB, instead of one scalar for three planes
+  bool fullBasis = false;   ///< b_k and a mean in RGB, instead of one scalar for three planes
+  std::vector<View> views;  ///< empty: one photograph of `size`
+  int bases = 1;            ///< of one table and different offsets; views take them in turn
+  int depthSteps = 0;       ///< > 0: with depth
 };
 
 /// Without the places of its tables, which sampleEntries fills in.
 Manifest sampleManifest(const SampleOptions& options);
 
 /// The codes of one tile: smooth, different in every plane, rounded to `bits`.
-PlaneCodes sampleCodes(const Manifest& manifest, int level, int x, int y);
-BytePicture sampleMask(const Manifest& manifest, int level, int x, int y);
+PlaneCodes sampleCodes(const Manifest& manifest, int group, int level, int x, int y);
+BytePicture sampleMask(const Manifest& manifest, int group, int level, int x, int y);
+/// A slope with holes in it.
+std::vector<std::uint16_t> sampleDepth(const Manifest& manifest, int group, int level, int x,
+                                       int y);
+/// Two turned slabs of different sizes, a camera and both kinds of panorama.
+std::vector<View> sampleViews();
 
 using Entries = std::vector<std::pair<std::string, std::vector<std::byte>>>;
 /// Every entry in canonical order.

@@ -5,6 +5,7 @@
 //   integer, number, flag, text, choice     scalars, with their limits
 //   triple, numbers, integers               lists of fixed or bounded length
 //   record, records                         a described record, or a list of them
+//   maybeRecord                             a described record that may be missing
 //
 // `describe` stands in this namespace, where the visitors find it.
 #pragma once

@@ -6,6 +6,7 @@
 #include <array>
 #include <cstdint>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -160,6 +161,11 @@ class Reader {
     describe(reader, value);
   }
   template <typename Record>
+  void maybeRecord(std::string_view name, std::optional<Record>& value) {
+    value.reset();
+    if (node_.contains(name)) record(Name(name, true), value.emplace());
+  }
+  template <typename Record>
   void records(Name name, std::vector<Record>& values, std::size_t least, std::size_t most) {
     const FieldPath path(&path_, name.text);
     const Json* node = findList(name, least, most);
@@ -257,6 +263,10 @@ class Writer {
     Writer writer(FieldPath(&path_, name.text));
     describe(writer, value);
     node_[std::string(name.text)] = std::move(writer.node());
+  }
+  template <typename Record>
+  void maybeRecord(std::string_view name, std::optional<Record>& value) {
+    if (value) record(Name(name, true), *value);
   }
   template <typename Record>
   void records(Name name, std::vector<Record>& values, std::size_t least, std::size_t most) {

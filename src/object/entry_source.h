@@ -35,7 +35,7 @@ std::unique_ptr<EntrySource> openFolder(const std::filesystem::path& path);
 /// "PATH: ENTRY", how errors name an entry.
 std::string sourceName(const std::filesystem::path& path, std::string_view entry);
 
-inline constexpr std::uint64_t kMaxManifestBytes = std::uint64_t{16} << 20;
+inline constexpr std::uint64_t kMaxManifestBytes = std::uint64_t{48} << 20;
 inline constexpr std::uint64_t kMaxBasisBytes = std::uint64_t{256} << 20;
 /// Of a tile or poster: no coding needs more for the largest atlas.
 inline constexpr std::uint64_t kMaxTileBytes = std::uint64_t{256} << 20;

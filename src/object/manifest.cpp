@@ -6,6 +6,7 @@
 
 #include "illum/error.h"
 #include "object/entry_name.h"
+#include "object/view_check.h"
 
 namespace illum {
 namespace {
@@ -18,35 +19,37 @@ Error wrong(std::string_view field, std::string_view expected, std::string_view 
   return {Fault::Input, fmt::format("field '{}': expected {}, found {}", field, expected, found)};
 }
 
-void checkCoding(const Manifest& m) {
-  const CodingEntry& c = m.coding;
-  if (!supportsBits(c.coding, c.bits))
-    throw wrong("coding.bits", fmt::format("a depth that {} can hold", nameOf(c.coding)),
-                std::to_string(c.bits));
-  if (c.functions.size() != c.offsets.size())
-    throw wrong("coding.functions", fmt::format("{} values", c.offsets.size()),
-                std::to_string(c.functions.size()));
-  AtlasLayout::forTile(m.planes(), {m.tile, m.tile}, splitsBytes(c.coding, c.bits));
-}
-
 /// Planes that a basis describes.
 int functionsOf(const BasisEntry& basis) {
   return basis.colour.kind == BasisColour::Kind::Separable ? 3 * basis.coefficients
                                                            : basis.coefficients;
 }
 
-void checkBasis(const Manifest& m, std::size_t index) {
-  const BasisEntry& basis = m.bases[index];
+void checkCoding(const Manifest& m, std::size_t index) {
+  const CodingEntry &c = m.bases[index].coding, &common = m.bases.front().coding;
+  if (!supportsBits(c.coding, c.bits))
+    throw wrong("coding.bits", fmt::format("a depth that {} can hold", nameOf(c.coding)),
+                std::to_string(c.bits));
+  if (c.coding != common.coding || c.bits != common.bits || c.curve != common.curve ||
+      c.step != common.step)
+    throw wrong("coding", "the same for all bases", fmt::format("another for basis {}", index));
+  const std::string field = fmt::format("bases[{}].functions", index);
+  if (c.functions.size() != c.offsets.size())
+    throw wrong(field, fmt::format("{} values", c.offsets.size()),
+                std::to_string(c.functions.size()));
+  const int functions = functionsOf(m.bases[index]);
+  for (const int function : c.functions)
+    if (function >= functions)
+      throw wrong(field, fmt::format("less than {}, the number that the basis has", functions),
+                  std::to_string(function));
+  AtlasLayout::forTile(c.planes(), {m.tile, m.tile}, splitsBytes(c.coding, c.bits));
+}
+
+void checkMixing(const BasisEntry& basis, std::size_t index) {
   const auto n = static_cast<std::size_t>(basis.coefficients);
   if (!basis.mixing.empty() && basis.mixing.size() != n * n)
     throw wrong(fmt::format("bases[{}].mixing", index), fmt::format("0 or {} values", n * n),
                 std::to_string(basis.mixing.size()));
-  for (const int function : m.coding.functions)
-    if (function >= functionsOf(basis))
-      throw wrong(
-          "coding.functions",
-          fmt::format("less than {}, the number that basis {} has", functionsOf(basis), index),
-          std::to_string(function));
 }
 
 void checkTile(const Manifest& m) {
@@ -54,30 +57,17 @@ void checkTile(const Manifest& m) {
     throw wrong("tile", fmt::format("a multiple of {}", kCellAlignment), std::to_string(m.tile));
 }
 
-/// Coarser levels exist only while the longer side exceeds a tile.
-void checkLevels(const Manifest& m) {
-  if (m.levels == 1) return;
-  const Size finer = m.sizeAt(m.levels - 2);
-  if (std::max(finer.width, finer.height) <= m.tile)
-    throw wrong("levels", "no level beyond the first that fits one tile", std::to_string(m.levels));
-}
-
-void checkTileCount(const Manifest& m) {
+void checkGroups(const Manifest& m) {
   std::uint64_t tiles = 0;
-  for (int level = 0; level < m.levels; ++level)
-    tiles += static_cast<std::uint64_t>(m.tilesAcross(level)) *
-             static_cast<std::uint64_t>(m.tilesDown(level));
-  tiles *= m.groups.size();
+  for (std::size_t g = 0; g < m.groups.size(); ++g) {
+    if (m.groups[g].basis >= static_cast<int>(m.bases.size()))
+      throw wrong(fmt::format("groups[{}].basis", g), fmt::format("less than {}", m.bases.size()),
+                  std::to_string(m.groups[g].basis));
+    tiles += m.grid(static_cast<int>(g)).tiles();
+  }
   if (tiles > kMaxTiles)
     throw wrong("tile", fmt::format("tiles so large that there are at most {}", kMaxTiles),
                 std::to_string(tiles));
-}
-
-/// A photograph's frame is the object's (docs/conventions.md, "Frames").
-void checkPose(const GroupEntry& group, std::size_t index) {
-  if (group.objectFromGroup != RigidTransform())
-    throw wrong(fmt::format("groups[{}].objectFromGroup", index),
-                "the identity, as for every photograph", "another transform");
 }
 
 void checkHeldOut(const Manifest& m) {
@@ -92,59 +82,77 @@ void checkHeldOut(const Manifest& m) {
 
 }  // namespace
 
-Size Manifest::sizeAt(int level) const {
+int TileGrid::levels() const {
+  int levels = 1;
+  for (int side = std::max(size.width, size.height); side > tile; side = dividedUp(side, 2))
+    ++levels;
+  return levels;
+}
+
+Size TileGrid::sizeAt(int level) const {
   const int divisor = 1 << level;
   return {dividedUp(size.width, divisor), dividedUp(size.height, divisor)};
 }
 
-int Manifest::tilesAcross(int level) const {
+int TileGrid::tilesAcross(int level) const {
   return dividedUp(sizeAt(level).width, tile);
 }
 
-int Manifest::tilesDown(int level) const {
+int TileGrid::tilesDown(int level) const {
   return dividedUp(sizeAt(level).height, tile);
 }
 
-Rectangle Manifest::tileRectangle(int level, int x, int y) const {
+Rectangle TileGrid::tileRectangle(int level, int x, int y) const {
   const Size whole = sizeAt(level);
   return {x * tile, y * tile, std::min(tile, whole.width - x * tile),
           std::min(tile, whole.height - y * tile)};
 }
 
+std::uint64_t TileGrid::tiles() const {
+  std::uint64_t tiles = 0;
+  for (int level = 0; level < levels(); ++level)
+    tiles += static_cast<std::uint64_t>(tilesAcross(level)) *
+             static_cast<std::uint64_t>(tilesDown(level));
+  return tiles;
+}
+
 void checkConsistency(const Manifest& m) {
   checkTile(m);
-  checkCoding(m);
-  for (std::size_t b = 0; b < m.bases.size(); ++b) checkBasis(m, b);
-  for (std::size_t g = 0; g < m.groups.size(); ++g) {
-    if (m.groups[g].basis >= static_cast<int>(m.bases.size()))
-      throw wrong(fmt::format("groups[{}].basis", g), fmt::format("less than {}", m.bases.size()),
-                  std::to_string(m.groups[g].basis));
-    checkPose(m.groups[g], g);
+  for (std::size_t b = 0; b < m.bases.size(); ++b) {
+    checkCoding(m, b);
+    checkMixing(m.bases[b], b);
   }
-  checkLevels(m);
-  checkTileCount(m);
+  checkGroups(m);
+  checkViews(m);
   checkHeldOut(m);
 }
 
-std::string planeTileName(const Manifest& manifest, int group, int level, int x, int y) {
-  return tileEntryName("planes", group, level, x, y, fileSuffixOf(manifest.coding.coding));
+std::string planeTileName(const Manifest& m, int group, int level, int x, int y) {
+  return tileEntryName("planes", group, level, x, y, fileSuffixOf(m.coding().coding));
 }
 
 std::string maskTileName(const Manifest&, int group, int level, int x, int y) {
   return tileEntryName("mask", group, level, x, y, ".png");
 }
 
+std::string depthTileName(const Manifest&, int group, int level, int x, int y) {
+  return tileEntryName("depth", group, level, x, y, ".png");
+}
+
 void forEachRequiredEntry(const Manifest& m, const std::function<void(const std::string&)>& visit) {
-  const auto visitTiles = [&](auto nameOfTile) {
-    for (int group = 0; group < static_cast<int>(m.groups.size()); ++group)
-      for (int level = 0; level < m.levels; ++level)
-        for (int y = 0; y < m.tilesDown(level); ++y)
-          for (int x = 0; x < m.tilesAcross(level); ++x) visit(nameOfTile(m, group, level, x, y));
+  const auto visitTiles = [&](int group, auto nameOfTile) {
+    const TileGrid grid = m.grid(group);
+    for (int level = 0; level < grid.levels(); ++level)
+      for (int y = 0; y < grid.tilesDown(level); ++y)
+        for (int x = 0; x < grid.tilesAcross(level); ++x) visit(nameOfTile(m, group, level, x, y));
   };
+  const int groups = static_cast<int>(m.groups.size());
   visit(std::string(kManifestEntry));
   visit(std::string(kBasisEntry));
-  visitTiles(planeTileName);
-  if (m.mask) visitTiles(maskTileName);
+  for (int g = 0; g < groups; ++g) visitTiles(g, planeTileName);
+  for (int g = 0; g < groups; ++g)
+    if (m.groups[static_cast<std::size_t>(g)].depth) visitTiles(g, depthTileName);
+  for (int g = 0; m.mask && g < groups; ++g) visitTiles(g, maskTileName);
 }
 
 }  // namespace illum

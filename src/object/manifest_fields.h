@@ -14,6 +14,7 @@
 #include "json/field.h"
 #include "object/entry_source.h"
 #include "object/manifest.h"
+#include "object/view_record.h"
 
 namespace illum::fields {
 
@@ -41,19 +42,17 @@ void describe(Visitor& v, BasisEntry& basis) {
   v.choice("kind", basis.colour.kind,
            Choices<Kind>{{Kind::Separable, "separable"}, {Kind::Full, "full"}});
   v.numbers("colourMatrix", basis.colour.colourMatrix, -kHuge, kHuge);
+  v.choice("domain", basis.domain,
+           Choices<LightDomain>{{LightDomain::Hemisphere, "hemisphere"},
+                                {LightDomain::Sphere, "sphere"}});
   v.integer("tableOffset", basis.tableOffset, 0, kMaxBasisBytes);
   v.integer("tableBytes", basis.tableBytes, 1, kMaxBasisBytes);
+  v.numbers("offsets", basis.coding.offsets, -kHuge, kHuge, 1, kMaxPlanes);
+  v.integers("functions", basis.coding.functions, 0, kMaxPlanes - 1, 1, kMaxPlanes);
   v.numbers(optional("mixing"), basis.mixing, -kHuge, kHuge, 0, kMaxPlanes * kMaxPlanes);
 }
 
-template <typename Visitor>
-void describe(Visitor& v, GroupEntry& group) {
-  v.text("name", group.name);
-  v.integer("basis", group.basis, 0, kMaxBases - 1);
-  v.integer("views", group.views, 1, 1);
-  v.record("objectFromGroup", group.objectFromGroup);
-}
-
+/// Of the whole object: offsets and functions are the bases' own.
 template <typename Visitor>
 void describe(Visitor& v, CodingEntry& coding) {
   v.choice("name", coding.coding,
@@ -62,9 +61,28 @@ void describe(Visitor& v, CodingEntry& coding) {
   v.choice("curve", coding.curve,
            Choices<Curve>{{Curve::Linear, "linear"}, {Curve::SignedSqrt, "signedSqrt"}});
   v.number("step", coding.step, 1e-30, kHuge);
-  v.numbers("offsets", coding.offsets, -kHuge, kHuge, 1, kMaxPlanes);
-  v.integers("functions", coding.functions, 0, kMaxPlanes - 1, 1, kMaxPlanes);
   v.integer(optional("quality"), coding.quality, 0, 100);
+}
+
+template <typename Visitor>
+void describe(Visitor& v, DepthRange& depth) {
+  v.number("from", depth.from, -kHuge, kHuge);
+  v.number("to", depth.to, -kHuge, kHuge);
+  v.integer("steps", depth.steps, 1, kMaxDepthSteps);
+}
+
+/// A group with its view's geometry as a record of its own.
+struct GroupRecord {
+  GroupEntry entry;  ///< all but the geometry
+  ViewRecord view;
+};
+
+template <typename Visitor>
+void describe(Visitor& v, GroupRecord& group) {
+  v.text("name", group.entry.view.name);
+  v.integer("basis", group.entry.basis, 0, kMaxBases - 1);
+  v.record("geometry", group.view);  // object/view_fields.h
+  v.maybeRecord("depth", group.entry.depth);
 }
 
 /// A light of the capture, its direction not yet checked to be one.
@@ -91,9 +109,12 @@ void describe(Visitor& v, ProvenanceRecord& record) {
   v.text("value", record.value);
 }
 
-/// The manifest with the two lists that differ between memory and file.
+/// The manifest as it stands in the file.
 struct FileManifest {
-  Manifest manifest;
+  Manifest manifest;  ///< without groups, lights and provenance
+  CodingEntry coding;
+  std::vector<LightSlab> slabs;
+  std::vector<GroupRecord> groups;
   std::vector<LightRecord> lights;
   std::vector<ProvenanceRecord> provenance;
 };
@@ -102,20 +123,15 @@ template <typename Visitor>
 void describe(Visitor& v, FileManifest& file) {
   Manifest& m = file.manifest;
   v.text("generator", m.generator);
-  v.text("geometry", m.geometry);
-  v.record("size", m.size);
   v.integer("tile", m.tile, kMinTile, kMaxTile);
-  v.integer("levels", m.levels, 1, kMaxLevels);
-  v.choice("domain", m.domain,
-           Choices<LightDomain>{{LightDomain::Hemisphere, "hemisphere"},
-                                {LightDomain::Sphere, "sphere"}});
   v.choice(
       "response", m.response,
       Choices<Response>{
           {Response::Linear, "linear"}, {Response::Display, "display"}, {Response::Cone, "cone"}});
-  v.record("coding", m.coding);
+  v.record("coding", file.coding);
   v.records("bases", m.bases, 1, kMaxBases);
-  v.records("groups", m.groups, 1, kMaxGroups);
+  v.records(optional("slabs"), file.slabs, 0, kMaxSlabs);
+  v.records("groups", file.groups, 1, kMaxGroups);
   v.flag(optional("mask"), m.mask);
   v.records(optional("lights"), file.lights, 0, kMaxLights);
   v.integers(optional("heldOut"), m.heldOut, 0, kMaxLights - 1, 0, kMaxLights);

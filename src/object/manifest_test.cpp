@@ -18,29 +18,48 @@ using nlohmann::json;
 using testing::HasSubstr;
 using testing::StartsWith;
 
-/// Everything set to something else than its default.
+/// Everything set to something else than its default; every kind of view but a photograph.
 Manifest fullManifest() {
   Manifest m;
-  m.size = {1000, 700};
   m.tile = 256;
-  m.levels = 3;
-  m.domain = LightDomain::Sphere;
   m.response = Response::Cone;
-  m.coding = {Coding::Png, 12, Curve::SignedSqrt, 0.1, {-1, 0.5, 1e-9, 0.25}, {0, 1, 2, 0}, 33};
   BasisEntry separable;
   separable.name = "hsh";
   separable.coefficients = 1;
   separable.colour.colourMatrix = {0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9};
+  separable.domain = LightDomain::Sphere;
   separable.tableOffset = 12;
   separable.tableBytes = 345;
+  separable.coding = {Coding::Png,  12, Curve::SignedSqrt, 0.1, {-1, 0.5, 1e-9, 0.25},
+                      {0, 1, 2, 0}, 33};
   separable.mixing = {0.3333333333333333};
   BasisEntry full;
   full.name = "learned";
   full.coefficients = 3;
   full.colour.kind = BasisColour::Kind::Full;
   full.tableBytes = 12;
+  full.coding = separable.coding;
+  full.coding.offsets = {2};
+  full.coding.functions = {2};
   m.bases = {separable, full};
-  m.groups = {{"front", 1, 1, {}}, {"back", 0, 1, {}}};
+  LightSlab slab;
+  slab.name = "front";
+  slab.objectFromSlab = {{0, -1, 0, 1, 0, 0, 0, 0, 1}, {1, 2, 3}};
+  slab.distance = 4;
+  slab.uv = {-1, -0.5, 1, 0.5};
+  slab.uCount = 9;
+  slab.vCount = 5;
+  slab.st = {-2, -1, 2, 1};
+  slab.size = {1000, 700};
+  const RigidTransform pose{{1, 0, 0, 0, 1, 0, 0, 0, 1}, {0.5, 0, 0}};
+  m.groups = {
+      {{"a", SlabView{slab, 8, 0}}, 1, DepthRange{-1, 0.5, 300}},
+      {{"b", SlabView{slab, 0, 4}}, 0, {}},
+      {{"c", PinholeCamera{pose, 10, 11, {3, 2.5}, {6, 5}}}, 0, {}},
+      {{"d", Panorama{Panorama::Projection::Cylindrical, pose, {-1, -0.5, 1, 0.5}, {8, 4}}}, 0, {}},
+      {{"e", Panorama{Panorama::Projection::Equirectangular, {}, {-3, -1, 3, 1.5}, {9, 5}}},
+       0,
+       DepthRange{1, 1, 1}}};
   m.mask = true;
   m.lights = {{"a \"b\" \xc3\xa9.jpg", {Direction::fromVector({1, 2, 3}), {0.1f, 2, 3}}, 0},
               {"", {Direction::fromVector({-1, 0, 1e-9}), {1, 1, 1}}, 0}};
@@ -50,33 +69,31 @@ Manifest fullManifest() {
   return m;
 }
 
+/// The same of one photograph.
+Manifest photographManifest(Size size = {1000, 700}) {
+  Manifest m = fullManifest();
+  m.groups = {{{"photograph", OrthographicView{size}}, 1, {}}};
+  return m;
+}
+
 constexpr std::string_view kGolden = R"({
   "format": "illum",
   "version": [1,0],
   "generator": "test",
-  "geometry": "photograph",
-  "size": {"width":1000,"height":700},
   "tile": 256,
-  "levels": 3,
-  "domain": "sphere",
   "response": "cone",
-  "coding": {
-    "name": "png",
-    "bits": 12,
-    "curve": "signedSqrt",
-    "step": 0.1,
-    "offsets": [-1.0,0.5,1e-09,0.25],
-    "functions": [0,1,2,0],
-    "quality": 33
-  },
+  "coding": {"name":"png","bits":12,"curve":"signedSqrt","step":0.1,"quality":33},
   "bases": [
     {
       "name": "hsh",
       "coefficients": 1,
       "kind": "separable",
       "colourMatrix": [0.1,0.2,0.3,0.4,0.5,0.6,0.7,0.8,0.9],
+      "domain": "sphere",
       "tableOffset": 12,
       "tableBytes": 345,
+      "offsets": [-1.0,0.5,1e-09,0.25],
+      "functions": [0,1,2,0],
       "mixing": [0.3333333333333333]
     },
     {
@@ -84,23 +101,74 @@ constexpr std::string_view kGolden = R"({
       "coefficients": 3,
       "kind": "full",
       "colourMatrix": [1.0,0.0,0.0,0.0,1.0,0.0,0.0,0.0,1.0],
+      "domain": "hemisphere",
       "tableOffset": 0,
       "tableBytes": 12,
+      "offsets": [2.0],
+      "functions": [2],
       "mixing": []
+    }
+  ],
+  "slabs": [
+    {
+      "name": "front",
+      "size": {"width":1000,"height":700},
+      "objectFromSlab": {"rotation":[0.0,-1.0,0.0,1.0,0.0,0.0,0.0,0.0,1.0],"translation":[1.0,2.0,3.0]},
+      "distance": 4.0,
+      "uCount": 9,
+      "vCount": 5,
+      "uv": {"left":-1.0,"bottom":-0.5,"right":1.0,"top":0.5},
+      "st": {"left":-2.0,"bottom":-1.0,"right":2.0,"top":1.0}
     }
   ],
   "groups": [
     {
-      "name": "front",
+      "name": "a",
       "basis": 1,
-      "views": 1,
-      "objectFromGroup": {"rotation":[1.0,0.0,0.0,0.0,1.0,0.0,0.0,0.0,1.0],"translation":[0.0,0.0,0.0]}
+      "geometry": {"kind":"slab","slab":0,"u":8,"v":0},
+      "depth": {"from":-1.0,"to":0.5,"steps":300}
+    },
+    {"name":"b","basis":0,"geometry":{"kind":"slab","slab":0,"u":0,"v":4}},
+    {
+      "name": "c",
+      "basis": 0,
+      "geometry": {
+        "kind": "camera",
+        "camera": {
+          "size": {"width":6,"height":5},
+          "objectFromCamera": {"rotation":[1.0,0.0,0.0,0.0,1.0,0.0,0.0,0.0,1.0],"translation":[0.5,0.0,0.0]},
+          "focalX": 10.0,
+          "focalY": 11.0,
+          "centre": {"x":3.0,"y":2.5}
+        }
+      }
     },
     {
-      "name": "back",
+      "name": "d",
       "basis": 0,
-      "views": 1,
-      "objectFromGroup": {"rotation":[1.0,0.0,0.0,0.0,1.0,0.0,0.0,0.0,1.0],"translation":[0.0,0.0,0.0]}
+      "geometry": {
+        "kind": "panorama",
+        "panorama": {
+          "projection": "cylindrical",
+          "size": {"width":8,"height":4},
+          "objectFromCamera": {"rotation":[1.0,0.0,0.0,0.0,1.0,0.0,0.0,0.0,1.0],"translation":[0.5,0.0,0.0]},
+          "extent": {"left":-1.0,"bottom":-0.5,"right":1.0,"top":0.5}
+        }
+      }
+    },
+    {
+      "name": "e",
+      "basis": 0,
+      "geometry": {
+        "kind": "panorama",
+        "panorama": {
+          "projection": "equirectangular",
+          "size": {"width":9,"height":5},
+          "objectFromCamera": {"rotation":[1.0,0.0,0.0,0.0,1.0,0.0,0.0,0.0,1.0],"translation":[0.0,0.0,0.0]},
+          "extent": {"left":-3.0,"bottom":-1.0,"right":3.0,"top":1.5}
+        }
+      },
+      "depth": {"from":1.0,"to":1.0,"steps":1}
     }
   ],
   "mask": true,
@@ -148,12 +216,19 @@ TEST(Manifest, TextIsFrozen) {
 TEST(Manifest, ReadingIsTheInverseOfWriting) {
   const Manifest m = manifestFromText(kGolden, "FILE");
   EXPECT_EQ(textOf(m), kGolden);
-  EXPECT_EQ(m.size, (Size{1000, 700}));
-  EXPECT_EQ(m.domain, LightDomain::Sphere);
+  ASSERT_EQ(m.groups.size(), fullManifest().groups.size());
+  for (std::size_t g = 0; g < m.groups.size(); ++g) {
+    EXPECT_EQ(m.groups[g].view, fullManifest().groups[g].view) << g;
+    EXPECT_EQ(m.groups[g].depth, fullManifest().groups[g].depth) << g;
+    EXPECT_EQ(m.groups[g].basis, fullManifest().groups[g].basis) << g;
+  }
+  EXPECT_EQ(m.grid(1).size, (Size{1000, 700}));
+  EXPECT_EQ(m.bases[0].domain, LightDomain::Sphere);
   EXPECT_EQ(m.response, Response::Cone);
-  EXPECT_EQ(m.coding.coding, Coding::Png);
-  EXPECT_EQ(m.coding.curve, Curve::SignedSqrt);
-  EXPECT_EQ(m.coding.functions, fullManifest().coding.functions);
+  EXPECT_EQ(m.coding(0).coding, Coding::Png);
+  EXPECT_EQ(m.coding(0).curve, Curve::SignedSqrt);
+  EXPECT_EQ(m.coding(0).functions, std::vector<int>{2});
+  EXPECT_EQ(m.coding(1).functions, (std::vector<int>{0, 1, 2, 0}));
   EXPECT_EQ(m.bases[1].colour.kind, BasisColour::Kind::Full);
   EXPECT_EQ(m.bases[0].tableOffset, 12u);
   EXPECT_EQ(m.lights[0].name, fullManifest().lights[0].name);
@@ -173,14 +248,15 @@ TEST(Manifest, DoublesSurviveToTheLastBit) {
   }
   Manifest m = fullManifest();
   m.tile = 64;
-  m.size = {64, 64};
-  m.levels = 1;
-  m.coding = {Coding::Avif, 8, Curve::Linear, 1, values, std::vector<int>(values.size(), 0), 50};
+  m.bases.pop_back();
+  for (GroupEntry& group : m.groups) group.basis = 0;
+  m.bases[0].coding = {
+      Coding::Avif, 8, Curve::Linear, 1, values, std::vector<int>(values.size(), 0), 50};
   const Manifest back = manifestFromText(textOf(m), "FILE");
-  ASSERT_EQ(back.coding.offsets.size(), values.size());
+  ASSERT_EQ(back.coding().offsets.size(), values.size());
   for (std::size_t i = 0; i < values.size(); ++i)
-    EXPECT_EQ(std::memcmp(&back.coding.offsets[i], &values[i], sizeof(double)), 0)
-        << values[i] << " became " << back.coding.offsets[i];
+    EXPECT_EQ(std::memcmp(&back.coding().offsets[i], &values[i], sizeof(double)), 0)
+        << values[i] << " became " << back.coding().offsets[i];
 }
 
 TEST(Manifest, NamesThatAreNotUtf8AreMarked) {
@@ -206,15 +282,28 @@ TEST(Manifest, RefusesToWriteNumbersThatAreNotFinite) {
         EXPECT_THAT(error.what(), HasSubstr("field '" + field + "': expected a number"));
       }
     };
-    expectRefusal("coding.step", [&](Manifest& m) { m.coding.step = bad; });
-    expectRefusal("coding.offsets[2]", [&](Manifest& m) { m.coding.offsets[2] = bad; });
+    expectRefusal("coding.step", [&](Manifest& m) { m.bases[0].coding.step = bad; });
+    expectRefusal("bases[0].offsets[2]", [&](Manifest& m) { m.bases[0].coding.offsets[2] = bad; });
     expectRefusal("bases[0].colourMatrix[8]",
                   [&](Manifest& m) { m.bases[0].colour.colourMatrix[8] = bad; });
     expectRefusal("bases[0].mixing[0]", [&](Manifest& m) { m.bases[0].mixing[0] = bad; });
-    expectRefusal("groups[1].objectFromGroup.rotation[4]",
-                  [&](Manifest& m) { m.groups[1].objectFromGroup.rotation[4] = bad; });
-    expectRefusal("groups[0].objectFromGroup.translation[1]",
-                  [&](Manifest& m) { m.groups[0].objectFromGroup.translation.y = bad; });
+    const auto slab = [](Manifest& m) -> LightSlab& {
+      return std::get<SlabView>(m.groups[0].view.geometry).slab;
+    };
+    const auto camera = [](Manifest& m) -> PinholeCamera& {
+      return std::get<PinholeCamera>(m.groups[2].view.geometry);
+    };
+    expectRefusal("slabs[0].objectFromSlab.rotation[4]",
+                  [&](Manifest& m) { slab(m).objectFromSlab.rotation[4] = bad; });
+    expectRefusal("slabs[0].objectFromSlab.translation[1]",
+                  [&](Manifest& m) { slab(m).objectFromSlab.translation.y = bad; });
+    expectRefusal("slabs[0].distance", [&](Manifest& m) { slab(m).distance = bad; });
+    expectRefusal("slabs[0].uv.right", [&](Manifest& m) { slab(m).uv.right = bad; });
+    expectRefusal("slabs[0].st.top", [&](Manifest& m) { slab(m).st.top = bad; });
+    expectRefusal("groups[2].geometry.camera.focalY", [&](Manifest& m) { camera(m).focalY = bad; });
+    expectRefusal("groups[2].geometry.camera.centre.x",
+                  [&](Manifest& m) { camera(m).centre.x = bad; });
+    expectRefusal("groups[0].depth.to", [&](Manifest& m) { m.groups[0].depth->to = bad; });
     expectRefusal("lights[0].intensity[1]",
                   [&](Manifest& m) { m.lights[0].light.intensity.g = static_cast<float>(bad); });
   }
@@ -231,14 +320,21 @@ TEST(Manifest, RefusesToWriteWhatItWouldNotRead) {
     }
     return std::string();
   };
-  EXPECT_THAT(errorOfWriting([](Manifest& m) { m.size.width = 0; }),
-              HasSubstr("object.json: field 'size.width'"));
+  EXPECT_THAT(errorOfWriting([](Manifest& m) {
+                std::get<PinholeCamera>(m.groups[2].view.geometry).size.width = 0;
+              }),
+              HasSubstr("object.json: field 'groups[2].geometry.camera.size.width'"));
   EXPECT_THAT(errorOfWriting([](Manifest& m) { m.tile = 63; }), HasSubstr("'tile'"));
-  EXPECT_THAT(errorOfWriting([](Manifest& m) { m.coding.functions.pop_back(); }),
-              HasSubstr("'coding.functions': expected 4 values"));
-  EXPECT_THAT(errorOfWriting([](Manifest& m) { m.coding.functions[0] = 3; }),
-              HasSubstr("'coding.functions': expected less than 3"));
-  EXPECT_THAT(errorOfWriting([](Manifest& m) { m.geometry = "slab"; }), HasSubstr("'geometry'"));
+  EXPECT_THAT(errorOfWriting([](Manifest& m) { m.bases[0].coding.functions.pop_back(); }),
+              HasSubstr("'bases[0].functions': expected 4 values"));
+  EXPECT_THAT(errorOfWriting([](Manifest& m) { m.bases[0].coding.functions[0] = 3; }),
+              HasSubstr("'bases[0].functions': expected less than 3"));
+  EXPECT_THAT(errorOfWriting([](Manifest& m) { m.bases[1].coding.step = 0.2; }),
+              HasSubstr("'coding': expected the same for all bases"));
+  EXPECT_THAT(errorOfWriting([](Manifest& m) {
+                std::get<SlabView>(m.groups[1].view.geometry).slab.distance = 5;
+              }),
+              HasSubstr("'groups[1].geometry, its slab': expected one slab of each name"));
   EXPECT_THAT(errorOfWriting([](Manifest& m) { m.heldOut = {1, 0}; }), HasSubstr("'heldOut'"));
   EXPECT_THAT(errorOfWriting([](Manifest& m) { m.generator.assign(5000, 'x'); }),
               HasSubstr("'generator'"));
@@ -247,35 +343,53 @@ TEST(Manifest, RefusesToWriteWhatItWouldNotRead) {
 TEST(Manifest, EveryRequiredFieldIsMissedByName) {
   for (const std::string& pointer :
        std::vector<std::string>{"/generator",
-                                "/geometry",
-                                "/size",
-                                "/size/width",
-                                "/size/height",
                                 "/tile",
-                                "/levels",
-                                "/domain",
                                 "/response",
                                 "/coding",
                                 "/coding/name",
                                 "/coding/bits",
                                 "/coding/curve",
                                 "/coding/step",
-                                "/coding/offsets",
-                                "/coding/functions",
                                 "/bases",
                                 "/bases/0/name",
                                 "/bases/0/coefficients",
                                 "/bases/0/kind",
                                 "/bases/0/colourMatrix",
+                                "/bases/0/domain",
                                 "/bases/0/tableOffset",
                                 "/bases/0/tableBytes",
+                                "/bases/0/offsets",
+                                "/bases/0/functions",
+                                "/slabs/0/name",
+                                "/slabs/0/objectFromSlab",
+                                "/slabs/0/distance",
+                                "/slabs/0/uv",
+                                "/slabs/0/uCount",
+                                "/slabs/0/vCount",
+                                "/slabs/0/st",
+                                "/slabs/0/size",
                                 "/groups",
                                 "/groups/1/name",
                                 "/groups/1/basis",
-                                "/groups/1/views",
-                                "/groups/1/objectFromGroup",
-                                "/groups/1/objectFromGroup/rotation",
-                                "/groups/1/objectFromGroup/translation",
+                                "/groups/1/geometry",
+                                "/groups/1/geometry/kind",
+                                "/groups/1/geometry/slab",
+                                "/groups/1/geometry/u",
+                                "/groups/1/geometry/v",
+                                "/groups/0/depth/from",
+                                "/groups/0/depth/to",
+                                "/groups/0/depth/steps",
+                                "/groups/2/geometry/camera",
+                                "/groups/2/geometry/camera/size",
+                                "/groups/2/geometry/camera/size/width",
+                                "/groups/2/geometry/camera/size/height",
+                                "/groups/2/geometry/camera/objectFromCamera",
+                                "/groups/2/geometry/camera/objectFromCamera/rotation",
+                                "/groups/2/geometry/camera/objectFromCamera/translation",
+                                "/groups/2/geometry/camera/focalX",
+                                "/groups/2/geometry/camera/centre",
+                                "/groups/3/geometry/panorama/extent",
+                                "/groups/3/geometry/panorama/extent/left",
                                 "/lights/0/name",
                                 "/lights/0/direction",
                                 "/provenance/0/name",
@@ -293,7 +407,7 @@ TEST(Manifest, EveryRequiredFieldIsMissedByName) {
 TEST(Manifest, OptionalFieldsHaveDefaults) {
   for (const std::string& pointer :
        std::vector<std::string>{"/mask", "/lights", "/heldOut", "/provenance", "/coding/quality",
-                                "/bases/0/mixing", "/lights/0/intensity"}) {
+                                "/groups/0/depth", "/bases/0/mixing", "/lights/0/intensity"}) {
     json root = json::parse(kGolden);
     root.erase("heldOut");
     const json::json_pointer at(pointer);
@@ -319,22 +433,22 @@ TEST(Manifest, RefusesValuesByFieldAndReason) {
            {"/version", {1, big}, "'version': expected 1.x"},
            {"/generator", 5, "'generator': expected text, found 5"},
            {"/generator", std::string(5000, 'x'), "at most 4096 bytes"},
-           {"/geometry", "hologram", "'geometry': expected 'photograph', found 'hologram'"},
-           {"/size", {1000, 700}, "'size': expected a record, found a list"},
-           {"/size/width", 0, "'size.width': expected a number from 1 to 1048576, found 0"},
-           {"/size/width", -1, "'size.width': expected a whole number from 1 to 1048576"},
-           {"/size/width", 1.5, "found 1.5"},
-           {"/size/width", "9", "found \"9\""},
-           {"/size/width", nullptr, "found null"},
-           {"/size/height", big, "'size.height': expected a number from 1 to 1048576"},
-           {"/size/height", 18446744073709551615ull, "found 18446744073709551615"},
+           {"/groups/2/geometry/camera/size",
+            {1000, 700},
+            "size': expected a record, found a list"},
+           {"/groups/2/geometry/camera/size/width", 0,
+            "'groups[2].geometry.camera.size.width': expected a number from 1 to 1048576, found 0"},
+           {"/groups/2/geometry/camera/size/width", -1,
+            "'groups[2].geometry.camera.size.width': expected a whole number from 1 to 1048576"},
+           {"/groups/2/geometry/camera/size/width", 1.5, "found 1.5"},
+           {"/groups/2/geometry/camera/size/width", "9", "found \"9\""},
+           {"/groups/2/geometry/camera/size/width", nullptr, "found null"},
+           {"/slabs/0/size/height", big, "'slabs[0].size.height': expected a number from 1 to"},
+           {"/groups/3/geometry/panorama/size/height", 18446744073709551615ull,
+            "found 18446744073709551615"},
            {"/tile", 60, "'tile': expected a number from 64 to 1360"},
            {"/tile", 65, "'tile': expected a multiple of 8"},
            {"/tile", 1368, "'tile': expected a number from 64 to 1360"},
-           {"/levels", 0, "'levels'"},
-           {"/levels", 4, "'levels': expected no level beyond the first that fits one tile"},
-           {"/levels", 64, "'levels'"},
-           {"/domain", "disc", "'domain': expected one of 'hemisphere', 'sphere', found \"disc\""},
            {"/response", "gamma", "'response': expected one of 'linear', 'display', 'cone'"},
            {"/coding/name", "gif", "'coding.name': expected one of"},
            {"/coding/bits", 9, "'coding.bits': expected a depth that png can hold, found 9"},
@@ -343,13 +457,15 @@ TEST(Manifest, RefusesValuesByFieldAndReason) {
            {"/coding/step", -1, "'coding.step'"},
            {"/coding/step", 1e31, "'coding.step'"},
            {"/coding/step", "1", "'coding.step': expected a number"},
-           {"/coding/offsets", json::array(),
-            "'coding.offsets': expected 1 to 768 elements, found 0"},
-           {"/coding/offsets", json(769, 0.0), "'coding.offsets': expected 1 to 768 elements"},
-           {"/coding/offsets/1", nullptr, "'coding.offsets[1]': expected a number, found null"},
-           {"/coding/functions", {0, 1}, "'coding.functions': expected 4 values, found 2"},
-           {"/coding/functions/3", 3, "'coding.functions': expected less than 3"},
-           {"/coding/functions/3", 768, "'coding.functions[3]'"},
+           {"/bases/0/domain", "disc",
+            "'bases[0].domain': expected one of 'hemisphere', 'sphere', found \"disc\""},
+           {"/bases/0/offsets", json::array(),
+            "'bases[0].offsets': expected 1 to 768 elements, found 0"},
+           {"/bases/0/offsets", json(769, 0.0), "'bases[0].offsets': expected 1 to 768 elements"},
+           {"/bases/0/offsets/1", nullptr, "'bases[0].offsets[1]': expected a number, found null"},
+           {"/bases/0/functions", {0, 1}, "'bases[0].functions': expected 4 values, found 2"},
+           {"/bases/0/functions/3", 3, "'bases[0].functions': expected less than 3"},
+           {"/bases/0/functions/3", 768, "'bases[0].functions[3]'"},
            {"/coding/quality", 101, "'coding.quality'"},
            {"/bases", json::array(), "'bases': expected 1 to 1024 elements, found 0"},
            {"/bases", 7, "'bases': expected a list, found 7"},
@@ -361,12 +477,51 @@ TEST(Manifest, RefusesValuesByFieldAndReason) {
            {"/bases/0/tableBytes", big, "'bases[0].tableBytes'"},
            {"/bases/0/tableOffset", big, "'bases[0].tableOffset'"},
            {"/bases/0/mixing", {1, 2}, "'bases[0].mixing': expected 0 or 1 values, found 2"},
-           {"/groups", json::array(), "'groups': expected 1 to 1024"},
+           {"/groups", json::array(), "'groups': expected 1 to 65536"},
            {"/groups/0/basis", 2, "'groups[0].basis': expected less than 2, found 2"},
-           {"/groups/0/views", 2, "'groups[0].views': expected a number from 1 to 1"},
-           {"/groups/0/objectFromGroup/rotation/0", 0.5, "objectFromGroup': expected the identity"},
-           {"/groups/0/objectFromGroup/rotation/0", 2, "rotation[0]': expected a number from"},
-           {"/groups/0/objectFromGroup/translation", {0, 0, 1}, "expected the identity"},
+           {"/groups/1/name", "a", "'groups[1].name': expected a name of its own, found 'a'"},
+           {"/groups/2/geometry/kind", "hologram",
+            "'groups[2].geometry.kind': expected one of 'photograph'"},
+           {"/groups/2/geometry",
+            {{"kind", "photograph"}, {"size", {{"width", 1}, {"height", 1}}}},
+            "to be an object's only view, found 5 groups"},
+           {"/groups/0/geometry/slab", 1, "'groups[0].geometry': view: expected a slab below 1"},
+           {"/groups/0/geometry/u", 9, "'groups[0].geometry': view: expected a view point of 9x5"},
+           {"/groups/0/geometry/v", 5, "found (8, 5)"},
+           {"/groups/0/geometry/u", -1, "'groups[0].geometry.u': expected a whole number"},
+           {"/groups/1", json::parse(kGolden)["groups"][0], "a name of its own"},
+           {"/groups/1/geometry", json::parse(kGolden)["groups"][0]["geometry"],
+            "'groups[1].geometry': expected one view at each u, v, found a second one at (8, 0)"},
+           {"/groups/0/depth/from", 0.6, "'groups[0].depth': expected from not above to"},
+           {"/groups/0/depth/steps", 65535, "'groups[0].depth.steps'"},
+           {"/groups/0/depth/steps", 0, "'groups[0].depth.steps'"},
+           {"/groups/0/depth", nullptr, "'groups[0].depth': expected a record, found null"},
+           {"/groups/2/geometry/camera/focalX", 0, "'groups[2].geometry.camera.focalX'"},
+           {"/groups/2/geometry/camera/focalY", -1, "'groups[2].geometry.camera.focalY'"},
+           {"/groups/2/geometry/camera/objectFromCamera/rotation/0", -1,
+            "'groups[2].geometry': camera: expected a rotation, found a mirroring"},
+           {"/groups/2/geometry/camera/objectFromCamera/rotation/0", 0.999, "expected a rotation"},
+           {"/groups/2/geometry/camera/objectFromCamera/rotation/0", 2,
+            "rotation[0]': expected a number from"},
+           {"/groups/3/geometry/panorama/extent/left", 1,
+            "'groups[3].geometry': panorama: expected"},
+           {"/groups/3/geometry/panorama/extent/left", -6, "expected at most a whole turn"},
+           {"/groups/3/geometry/panorama/extent/bottom", 0.5, "bottom < top"},
+           {"/groups/4/geometry/panorama/extent/top", 1.6, "expected elevations within"},
+           {"/groups/4/geometry/panorama/extent/top", "NaN", "extent.top': expected a number"},
+           {"/slabs/0/objectFromSlab/rotation",
+            {1, 0, 0, 0, 1, 0, 0, 0, -1},
+            "slab 'front': expected a rotation, found a mirroring"},
+           {"/slabs/0/objectFromSlab/rotation", json(9, 0), "expected a rotation"},
+           {"/slabs/0/distance", 0, "'slabs[0].distance'"},
+           {"/slabs/0/distance", -1, "'slabs[0].distance'"},
+           {"/slabs/0/uCount", 0, "'slabs[0].uCount'"},
+           {"/slabs/0/uCount", big, "'slabs[0].uCount'"},
+           {"/slabs/0/uv/left", 1, "slab 'front', view points uv: expected left < right"},
+           {"/slabs/0/st/top", -1, "slab 'front', window st: expected left < right"},
+           {"/slabs/0/st/top", nullptr, "'slabs[0].st.top': expected a number, found null"},
+           {"/slabs/0/name", "", "its slab's name': expected 1 to 255 bytes"},
+           {"/slabs", 3, "'slabs': expected a list"},
            {"/mask", 1, "'mask': expected true or false, found 1"},
            {"/lights/0/name", {"a"}, "'lights[0].name': expected text, found a list"},
            {"/lights/0/direction", {0, 0, 0}, "expected a direction, found the zero vector"},
@@ -384,9 +539,8 @@ TEST(Manifest, RefusesValuesByFieldAndReason) {
 
 TEST(Manifest, RefusesHugeDeclaredSizesWithoutTryingThem) {
   json root = json::parse(kGolden);
-  root["size"] = {{"width", kMaxSide}, {"height", kMaxSide}};
+  root["slabs"][0]["size"] = {{"width", kMaxSide}, {"height", kMaxSide}};
   root["tile"] = 64;
-  root["levels"] = 1;
   EXPECT_THAT(errorOf(root.dump()), HasSubstr("'tile': expected tiles so large that there are at "
                                               "most 4194304"));
 }
@@ -422,38 +576,68 @@ TEST(Manifest, TextThatIsNoManifestIsAnError) {
 
 TEST(Manifest, TilesCoverEveryLevelOnce) {
   for (const Size size : {Size{1, 1}, Size{64, 64}, Size{65, 64}, Size{1000, 700}, Size{3, 999}}) {
-    Manifest m = fullManifest();
-    m.size = size;
+    Manifest m = photographManifest(size);
     m.tile = 64;
-    for (int level = 0; level < 5; ++level) {
-      const Size whole = m.sizeAt(level);
+    const TileGrid grid = m.grid(0);
+    std::size_t tiles = 0;
+    for (int level = 0; level < grid.levels(); ++level) {
+      const Size whole = grid.sizeAt(level);
       EXPECT_EQ(whole.width, static_cast<int>(std::ceil(size.width / std::exp2(level))));
       EXPECT_EQ(whole.height, static_cast<int>(std::ceil(size.height / std::exp2(level))));
+      EXPECT_EQ(std::max(whole.width, whole.height) <= 64, level == grid.levels() - 1);
       std::size_t texels = 0;
-      for (int y = 0; y < m.tilesDown(level); ++y)
-        for (int x = 0; x < m.tilesAcross(level); ++x) {
-          const Rectangle tile = m.tileRectangle(level, x, y);
+      for (int y = 0; y < grid.tilesDown(level); ++y)
+        for (int x = 0; x < grid.tilesAcross(level); ++x) {
+          const Rectangle tile = grid.tileRectangle(level, x, y);
           EXPECT_EQ(tile.x, 64 * x);
           EXPECT_EQ(tile.y, 64 * y);
           EXPECT_TRUE(tile.width >= 1 && tile.width <= 64 && tile.height >= 1 && tile.height <= 64);
           texels += tile.pixels();
+          ++tiles;
         }
       EXPECT_EQ(texels, whole.pixels()) << size.width << "x" << size.height << " level " << level;
     }
+    EXPECT_EQ(tiles, grid.tiles());
   }
 }
 
 TEST(Manifest, RequiredEntriesAreAllTilesInCanonicalOrder) {
-  Manifest m = fullManifest();
-  m.size = {300, 200};
-  m.levels = 2;
-  m.groups.pop_back();
+  Manifest m = photographManifest({300, 200});
   std::vector<std::string> names;
-  forEachRequiredEntry(m, [&](const std::string& name) { names.push_back(name); });
+  const auto visit = [&](const std::string& name) { names.push_back(name); };
+  forEachRequiredEntry(m, visit);
   EXPECT_THAT(names,
               testing::ElementsAre("object.json", "basis.bin", "planes/0/0/0_0.png",
                                    "planes/0/0/1_0.png", "planes/0/1/0_0.png", "mask/0/0/0_0.png",
                                    "mask/0/0/1_0.png", "mask/0/1/0_0.png"));
+  m = fullManifest();
+  m.groups.erase(m.groups.begin(), m.groups.begin() + 3);
+  names.clear();
+  forEachRequiredEntry(m, visit);
+  EXPECT_THAT(names, testing::ElementsAre("object.json", "basis.bin", "planes/0/0/0_0.png",
+                                          "planes/1/0/0_0.png", "depth/1/0/0_0.png",
+                                          "mask/0/0/0_0.png", "mask/1/0/0_0.png"));
+}
+
+TEST(Manifest, HoldsAsManyViewsAsTheFormatAllows) {
+  Manifest m = fullManifest();
+  m.mask = false;
+  auto slab = std::get<SlabView>(m.groups[0].view.geometry).slab;
+  slab.uCount = slab.vCount = 256;
+  slab.size = {8, 8};
+  m.groups.clear();
+  for (int v = 0; v < 256; ++v)
+    for (int u = 0; u < 256; ++u)
+      m.groups.push_back(
+          {{"front:" + std::to_string(u) + "," + std::to_string(v), SlabView{slab, u, v}},
+           0,
+           DepthRange{-0.12345678901234567, 0.98765432109876543, 65534}});
+  const Manifest back = manifestFromText(textOf(m), "FILE");
+  ASSERT_EQ(back.groups.size(), m.groups.size());
+  EXPECT_EQ(back.groups.back().view, m.groups.back().view);
+  m.groups.push_back(m.groups.back());
+  m.groups.back().view.name = "one more";
+  EXPECT_THROW(textOf(m), Error);
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include "json/visitors.h"
 #include "object/entry_name.h"
 #include "object/manifest_fields.h"
+#include "object/view_fields.h"
 
 namespace illum {
 namespace {
@@ -36,10 +37,42 @@ void checkVersion(const Json& root, const FieldPath& top, Manifest& manifest) {
   manifest.versionMinor = static_cast<int>(minor);
 }
 
-void checkGeometry(const Manifest& manifest) {
-  if (manifest.geometry != "photograph")
-    throw Error(Fault::Input, fmt::format("field 'geometry': expected 'photograph', found '{}'",
-                                          manifest.geometry.substr(0, 40)));
+Manifest manifestOf(FileManifest file) {
+  Manifest manifest = std::move(file.manifest);
+  for (BasisEntry& basis : manifest.bases) {
+    CodingEntry coding = file.coding;
+    coding.offsets = std::move(basis.coding.offsets);
+    coding.functions = std::move(basis.coding.functions);
+    basis.coding = std::move(coding);
+  }
+  for (std::size_t g = 0; g < file.groups.size(); ++g) {
+    GroupEntry& entry = file.groups[g].entry;
+    try {
+      entry.view.geometry = geometryOf(file.groups[g].view, file.slabs);
+    } catch (const Error& error) {
+      throw Error(Fault::Input, fmt::format("field 'groups[{}].geometry': {}", g, error.what()));
+    }
+    manifest.groups.push_back(std::move(entry));
+  }
+  for (LightRecord& light : file.lights)
+    manifest.lights.push_back(
+        {std::move(light.name), {Direction::fromVector(light.direction), light.intensity}, 0});
+  for (ProvenanceRecord& record : file.provenance)
+    manifest.provenance.emplace_back(std::move(record.name), std::move(record.value));
+  return manifest;
+}
+
+FileManifest fileManifestOf(const Manifest& manifest) {
+  FileManifest file;
+  file.manifest = manifest;
+  if (!manifest.bases.empty()) file.coding = manifest.bases.front().coding;
+  for (const GroupEntry& entry : manifest.groups)
+    file.groups.push_back({{{entry.view.name, {}}, entry.basis, entry.depth},
+                           recordOf(entry.view.geometry, file.slabs)});
+  for (const LightFileEntry& entry : manifest.lights)
+    file.lights.push_back({entry.name, entry.light.toLight.vector(), entry.light.intensity});
+  for (const auto& [name, value] : manifest.provenance) file.provenance.push_back({name, value});
+  return file;
 }
 
 Manifest readManifest(std::string_view text) {
@@ -52,28 +85,17 @@ Manifest readManifest(std::string_view text) {
   Reader reader(root, top);
   checkVersion(root, top, file.manifest);
   describe(reader, file);
-  checkGeometry(file.manifest);
-  Manifest& manifest = file.manifest;
-  for (LightRecord& light : file.lights)
-    manifest.lights.push_back(
-        {std::move(light.name), {Direction::fromVector(light.direction), light.intensity}, 0});
-  for (ProvenanceRecord& record : file.provenance)
-    manifest.provenance.emplace_back(std::move(record.name), std::move(record.value));
+  Manifest manifest = manifestOf(std::move(file));
   checkConsistency(manifest);
-  return std::move(file.manifest);
+  return manifest;
 }
 
 std::string writeManifest(const Manifest& manifest) {
-  FileManifest file{manifest, {}, {}};
-  for (const LightFileEntry& entry : manifest.lights)
-    file.lights.push_back({entry.name, entry.light.toLight.vector(), entry.light.intensity});
-  for (const auto& [name, value] : manifest.provenance) file.provenance.push_back({name, value});
-
+  FileManifest file = fileManifestOf(manifest);
   Writer writer{FieldPath()};
   writer.node()["format"] = kFormat;
   writer.node()["version"] = {kMajor, kMinor};
   describe(writer, file);
-  checkGeometry(manifest);
   checkConsistency(manifest);
   std::string text = jsonText(writer.node());
   if (text.size() > kMaxManifestBytes)

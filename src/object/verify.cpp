@@ -50,6 +50,8 @@ void verifyEntry(const Object& object, const std::string& name, Faults& faults) 
       object.planeTile(key->group, key->level, key->x, key->y);
     else if (key && key->kind == EntryKey::Kind::Mask)
       object.maskTile(key->group, key->level, key->x, key->y);
+    else if (key && key->kind == EntryKey::Kind::Depth)
+      object.depthTile(key->group, key->level, key->x, key->y);
     else
       object.entry(name);
   });

@@ -16,15 +16,13 @@ namespace illum {
 namespace {
 
 void checkRequest(const Object& object, int group, int level) {
-  const Manifest& manifest = object.manifest();
-  if (group < 0 || group >= static_cast<int>(manifest.groups.size())) {
-    throw Error(Fault::Usage,
-                fmt::format("{}: there is no group of views {}, only 0 to {}",
-                            object.path().string(), group, manifest.groups.size() - 1));
+  if (group < 0 || group >= object.groups()) {
+    throw Error(Fault::Usage, fmt::format("{}: there is no group of views {}, only 0 to {}",
+                                          object.path().string(), group, object.groups() - 1));
   }
-  if (level < 0 || level >= manifest.levels) {
+  if (level < 0 || level >= object.levels(group)) {
     throw Error(Fault::Usage, fmt::format("{}: there is no level {}, only 0 to {}",
-                                          object.path().string(), level, manifest.levels - 1));
+                                          object.path().string(), level, object.levels(group) - 1));
   }
 }
 
@@ -39,21 +37,32 @@ void checkRegion(const Object& object, const Rectangle& region, Size size) {
                           size.width, size.height));
 }
 
+// Lights are given in the object frame, the basis is a function of the group's own.
+Direction inGroup(const View& view, Direction toLight) {
+  const RigidTransform objectFromView = objectFromGroup(view.geometry);
+  if (objectFromView.rotation == RigidTransform().rotation) return toLight;
+  return inverse(objectFromView).direction(toLight);
+}
+
 // One set of weights per pass over the planes: a linear response lets all lights share one.
 struct Pass {
   FoldedWeights weights;
   LinearRgb intensity{1, 1, 1};  // applied behind the response
 };
 
-std::vector<Pass> passesFor(const LightBasis& basis, const Manifest& manifest,
+std::vector<Pass> passesFor(const Object& object, int group,
                             std::span<const DirectionalLight> lights) {
+  const LightBasis& basis = object.basis(group);
+  const CodingEntry& coding = object.manifest().coding(group);
+  const bool linear = object.manifest().response == Response::Linear;
   std::vector<Pass> passes;
   for (const DirectionalLight& light : lights) {
-    if (manifest.response != Response::Linear) {
-      passes.push_back({foldWeights(basis, manifest.coding, light.toLight), light.intensity});
+    const Direction toLight = inGroup(object.view(group), light.toLight);
+    if (!linear) {
+      passes.push_back({foldWeights(basis, coding, toLight), light.intensity});
       continue;
     }
-    const auto folded = foldWeights(basis, manifest.coding, light.toLight, light.intensity);
+    const auto folded = foldWeights(basis, coding, toLight, light.intensity);
     if (passes.empty()) {
       passes.push_back({folded, {}});
     } else {
@@ -64,17 +73,18 @@ std::vector<Pass> passesFor(const LightBasis& basis, const Manifest& manifest,
 }
 
 // Linear RGB of `texels` texels of a tile from `first` on.
-void relightTexels(const PlaneCodes& codes, const Manifest& manifest, std::span<const Pass> passes,
-                   std::size_t first, std::span<float> rgb, std::vector<float>& scratch) {
-  if (manifest.response == Response::Linear && !passes.empty()) {
-    weightedSum(codes, manifest.coding, passes.front().weights, first, rgb);
+void relightTexels(const PlaneCodes& codes, const CodingEntry& coding, Response response,
+                   std::span<const Pass> passes, std::size_t first, std::span<float> rgb,
+                   std::vector<float>& scratch) {
+  if (response == Response::Linear && !passes.empty()) {
+    weightedSum(codes, coding, passes.front().weights, first, rgb);
     return;
   }
   std::fill(rgb.begin(), rgb.end(), 0.0f);
   scratch.resize(rgb.size());
   for (const Pass& pass : passes) {
-    weightedSum(codes, manifest.coding, pass.weights, first, scratch);
-    applyResponse(manifest.response, scratch);
+    weightedSum(codes, coding, pass.weights, first, scratch);
+    applyResponse(response, scratch);
     for (std::size_t i = 0; i < rgb.size(); i += 3) {
       rgb[i] += pass.intensity.r * scratch[i];
       rgb[i + 1] += pass.intensity.g * scratch[i + 1];
@@ -115,7 +125,7 @@ Relighter::~Relighter() = default;
 Picture Relighter::relight(std::span<const DirectionalLight> lights, int group, int level) const {
   const Object& object = state_->cache.object();
   checkRequest(object, group, level);
-  const Size size = object.manifest().sizeAt(level);
+  const Size size = object.manifest().grid(group).sizeAt(level);
   return relightRegion(lights, {0, 0, size.width, size.height}, group, level);
 }
 
@@ -124,12 +134,13 @@ Picture Relighter::relightRegion(std::span<const DirectionalLight> lights, const
   const Object& object = state_->cache.object();
   checkRequest(object, group, level);
   const Manifest& manifest = object.manifest();
-  checkRegion(object, region, manifest.sizeAt(level));
-  const auto passes = passesFor(object.basis(group), manifest, lights);
+  const TileGrid grid = manifest.grid(group);
+  checkRegion(object, region, grid.sizeAt(level));
+  const auto passes = passesFor(object, group, lights);
   Picture picture(region.size(), manifest.mask ? 4 : 3);
 
   const auto relightTile = [&](int x, int y) {
-    const Rectangle tile = manifest.tileRectangle(level, x, y);
+    const Rectangle tile = grid.tileRectangle(level, x, y);
     const Rectangle part = intersection(tile, region);
     const auto codes = state_->cache.planes({group, level, x, y});
     const BytePicture mask = manifest.mask ? object.maskTile(group, level, x, y) : BytePicture();
@@ -139,7 +150,8 @@ Picture Relighter::relightRegion(std::span<const DirectionalLight> lights, const
       std::vector<float> rgb(3 * width), scratch;
       for (int row = rows.begin(); row < rows.end(); ++row) {
         const auto first = Size{tile.width, row - tile.y}.pixels() + left;
-        relightTexels(*codes, manifest, passes, first, rgb, scratch);
+        relightTexels(*codes, manifest.coding(group), manifest.response, passes, first, rgb,
+                      scratch);
         storeRow(rgb, mask.empty() ? mask.samples() : mask.row(row - tile.y).subspan(left, width),
                  &picture.at(part.x - region.x, row - region.y, 0));
       }

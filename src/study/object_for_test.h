@@ -60,31 +60,28 @@ inline std::vector<std::byte> constantTable(BasisTable& table) {
 
 inline Manifest manifestOf(const FlatObject& object, std::size_t tableBytes) {
   Manifest manifest;
-  manifest.size = object.size;
   manifest.tile = 64;
   manifest.response = Response::Display;
   BasisEntry basis;
   basis.name = "constant";
   basis.coefficients = 1;
   basis.tableBytes = tableBytes;
+  basis.coding = {Coding::Png, 8, Curve::Linear, 1.0 / 255, {0, 0, 0}, {0, 1, 2}, 0};
   manifest.bases = {basis};
-  manifest.groups = {GroupEntry{"view", 0, 1, {}}};
-  manifest.coding = {Coding::Png, 8, Curve::Linear, 1.0 / 255, {0, 0, 0}, {0, 1, 2}, 0};
+  manifest.groups = {{{"view", OrthographicView{object.size}}, 0, {}}};
   manifest.mask = static_cast<bool>(object.coverageAt);
   manifest.lights = object.lights;
   manifest.heldOut = object.heldOut;
   manifest.generator = "test";
-  while (std::max(manifest.sizeAt(manifest.levels - 1).width,
-                  manifest.sizeAt(manifest.levels - 1).height) > manifest.tile)
-    ++manifest.levels;
   return manifest;
 }
 
 inline void writeTiles(const FlatObject& object, const Manifest& manifest, int level,
                        ObjectWriter& writer) {
-  for (int y = 0; y < manifest.tilesDown(level); ++y) {
-    for (int x = 0; x < manifest.tilesAcross(level); ++x) {
-      const Rectangle tile = manifest.tileRectangle(level, x, y);
+  const TileGrid grid = manifest.grid(0);
+  for (int y = 0; y < grid.tilesDown(level); ++y) {
+    for (int x = 0; x < grid.tilesAcross(level); ++x) {
+      const Rectangle tile = grid.tileRectangle(level, x, y);
       PlaneCodes codes{3, tile.size(), {}};
       BytePicture mask(tile.size(), 1);
       for (int c = 0; c < 3; ++c)
@@ -108,7 +105,8 @@ inline Object makeObject(const std::filesystem::path& file, const FlatObject& ob
   const std::vector<std::byte> bytes = constantTable(table);
   const Manifest manifest = manifestOf(object, bytes.size());
   ObjectWriter writer(file, ObjectForm::Archive, "test", false, true);
-  for (int level = 0; level < manifest.levels; ++level) writeTiles(object, manifest, level, writer);
+  for (int level = 0; level < manifest.grid(0).levels(); ++level)
+    writeTiles(object, manifest, level, writer);
   writer.add("basis.bin", bytes);
   const std::string text = textOf(manifest);
   writer.add("object.json", std::as_bytes(std::span(text)));

@@ -45,8 +45,8 @@ std::string header(const Object& object, const Evaluation& evaluation) {
   std::string about = fmt::format("{} × {} pixels · {}", object.size().width, object.size().height,
                                   counted(object.planes(), "plane"));
   for (const BasisEntry& basis : manifest.bases) about += " · basis " + basis.name;
-  about += fmt::format(" · {}, {} bits, {} · judged under {}", nameOf(manifest.coding.coding),
-                       manifest.coding.bits, nameOf(manifest.response),
+  about += fmt::format(" · {}, {} bits, {} · judged under {}", nameOf(manifest.coding().coding),
+                       manifest.coding().bits, nameOf(manifest.response),
                        counted(static_cast<int>(evaluation.lights.size()), "light"));
   return "<h1>" + htmlText(name) + "</h1>\n<p class=\"quiet\">" + htmlText(about) + "</p>\n";
 }

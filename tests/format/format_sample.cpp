@@ -1,6 +1,7 @@
 // format_sample FOLDER: writes small objects of several kinds, and expected.txt, what our own
-// relighter makes of them: lines of an object, a light, a pixel and its linear RGB. The worked
-// example of docs/format.md is held to it (check_reader.py).
+// relighter makes of them: lines of an object, a view, a light, a pixel, its linear RGB and its
+// depth (or "none"). The worked example of docs/format.md is held to it (check_reader.py).
+#include <algorithm>
 #include <cstdio>
 #include <exception>
 #include <filesystem>
@@ -9,7 +10,9 @@
 #include <vector>
 
 #include "encode/sample_object.h"
+#include "illum/object.h"
 #include "illum/relight.h"
+#include "object/manifest.h"
 
 namespace illum {
 namespace {
@@ -20,7 +23,7 @@ struct Sample {
 };
 
 std::vector<Sample> samples() {
-  std::vector<Sample> all(6);
+  std::vector<Sample> all(8);
   all[0].name = "plain";
   all[1].name = "twelve_bits_display";
   all[1].options.bits = 12;
@@ -37,28 +40,56 @@ std::vector<Sample> samples() {
   all[5].options.fullBasis = true;
   all[5].options.domain = LightDomain::Sphere;
   all[5].options.mask = false;
+  all[6].name = "views";
+  all[6].options.views = sampleViews();
+  all[6].options.bases = 2;
+  all[6].options.depthSteps = 200;
+  all[6].options.domain = LightDomain::Sphere;
+  all[7].name = "views_fine_depth";
+  all[7].options.views = sampleViews();
+  all[7].options.depthSteps = 1000;
   return all;
 }
 
-void write(const std::filesystem::path& folder) {
+std::string depthAt(const Object& object, int group, int x, int y) {
+  if (!object.hasDepth(group)) return "none";
+  const int tile = object.manifest().tile;
+  const auto grid = object.manifest().grid(group);
+  const Rectangle area = grid.tileRectangle(0, x / tile, y / tile);
+  const auto depths = object.depthTile(group, 0, x / tile, y / tile);
+  const Size before{area.width, y - area.y};
+  return std::to_string(depths[before.pixels() + static_cast<std::size_t>(x - area.x)]);
+}
+
+void writeExpected(const Sample& sample, const Object& object, std::ofstream& expected) {
   const Vector3 lights[] = {{0, 0, 1}, {0.3, -0.2, 0.9}, {-0.7, 0.7, 0.05},
                             {1, 0, 0}, {0.4, 0.8, -0.3}, {0, 0, -1}};
-  const int pixels[][2] = {{0, 0}, {99, 69}, {63, 64}, {40, 20}};
+  const Relighter relighter(object);
+  for (int group = 0; group < object.groups(); ++group) {
+    const Size size = object.size(group);
+    const int right = size.width - 1, bottom = size.height - 1;
+    const int pixels[][2] = {
+        {0, 0}, {right, bottom}, {std::min(63, right), std::min(64, bottom)}, {20, 10}};
+    for (const Vector3& light : lights) {
+      const DirectionalLight lamp{Direction::fromVector(light), {1, 1, 1}};
+      const Picture picture = relighter.relight({&lamp, 1}, group);
+      for (const auto& [x, y] : pixels)
+        expected << sample.name << ' ' << group << ' ' << light.x << ' ' << light.y << ' '
+                 << light.z << ' ' << x << ' ' << y << ' ' << picture.at(x, y, 0) << ' '
+                 << picture.at(x, y, 1) << ' ' << picture.at(x, y, 2) << ' '
+                 << depthAt(object, group, x, y) << '\n';
+    }
+  }
+}
+
+void write(const std::filesystem::path& folder) {
   std::filesystem::create_directories(folder);
   std::ofstream expected(folder / "expected.txt");
   expected.precision(9);
   for (const Sample& sample : samples()) {
     const auto file = folder / (sample.name + ".illum");
     writeSampleObject(file, ObjectForm::Archive, sample.options);
-    const Relighter relighter(Object::open(file));
-    for (const Vector3& light : lights) {
-      const DirectionalLight lamp{Direction::fromVector(light), {1, 1, 1}};
-      const Picture picture = relighter.relight({&lamp, 1});
-      for (const auto& [x, y] : pixels)
-        expected << sample.name << ' ' << light.x << ' ' << light.y << ' ' << light.z << ' ' << x
-                 << ' ' << y << ' ' << picture.at(x, y, 0) << ' ' << picture.at(x, y, 1) << ' '
-                 << picture.at(x, y, 2) << '\n';
-    }
+    writeExpected(sample, Object::open(file), expected);
   }
 }
 

@@ -38,9 +38,10 @@ class MemoryFile {
   std::string path_;
 };
 
-constexpr std::array<const char*, 8> kNames{
-    "object.json",        "basis.bin",        "planes/0/0/0_0.png", "planes/0/0/0_0.avif",
-    "planes/0/0/0_0.jpg", "mask/0/0/0_0.png", "poster.jpg",         "planes/0/0/1_0.png"};
+constexpr std::array<const char*, 9> kNames{
+    "object.json",         "basis.bin",          "planes/0/0/0_0.png",
+    "planes/0/0/0_0.avif", "planes/0/0/0_0.jpg", "mask/0/0/0_0.png",
+    "poster.jpg",          "planes/0/0/1_0.png", "depth/0/0/0_0.png"};
 
 /// Entries of one byte for the name, two for the length (low first), then the contents.
 std::vector<std::byte> archiveOf(std::span<const std::byte> bytes) {
@@ -74,6 +75,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     object.basis(0).evaluate({}, values);
     object.maskTile(0, 0, 0, 0);
     object.planeTile(0, 0, 0, 0);
+    object.depthTile(0, 0, 0, 0);
   } catch (const illum::Error&) {
   }
   return 0;

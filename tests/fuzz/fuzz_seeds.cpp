@@ -47,6 +47,11 @@ std::vector<SampleOptions> smallObjects() {
     options.mask = bits == 8;
     all.push_back(options);
   }
+  SampleOptions views = all.front();
+  views.views = {sampleViews()[0], sampleViews()[3], sampleViews()[4]};
+  views.bases = 2;
+  views.depthSteps = 1000;
+  all.push_back(views);
   return all;
 }
 
@@ -62,6 +67,7 @@ int fuzzedName(const std::string& name) {
   if (name == "object.json") return 0;
   if (name == "basis.bin") return 1;
   if (name.starts_with("mask")) return 5;
+  if (name.starts_with("depth")) return 8;
   return name.ends_with(".png") ? 2 : name.ends_with(".avif") ? 3 : 4;
 }
 

@@ -37,26 +37,30 @@ std::uint64_t bytesUnder(const Object& object, const std::string& prefix) {
 nlohmann::ordered_json describe(const Object& object) {
   const Manifest& m = object.manifest();
   const BasisEntry& basis = m.bases.front();
-  const double pixels = static_cast<double>(m.size.pixels());
+  const TileGrid grid = m.grid(0);
+  double pixels = 0;
+  for (int group = 0; group < object.groups(); ++group) {
+    pixels += static_cast<double>(object.size(group).pixels());
+  }
   nlohmann::ordered_json out;
   out["version"] = 1;
   out["format"] = fmt::format("{}.{}", m.versionMajor, m.versionMinor);
-  out["geometry"] = m.geometry;
-  out["width"] = m.size.width;
-  out["height"] = m.size.height;
-  out["levels"] = m.levels;
+  out["geometry"] = "photograph";
+  out["width"] = grid.size.width;
+  out["height"] = grid.size.height;
+  out["levels"] = grid.levels();
   out["tile"] = m.tile;
   out["basis"] = basis.name;
-  out["domain"] = m.domain == LightDomain::Sphere ? "sphere" : "hemisphere";
+  out["domain"] = basis.domain == LightDomain::Sphere ? "sphere" : "hemisphere";
   out["coefficients"] = basis.coefficients;
   out["planes"] = object.basis(0).planes();
-  out["storedPlanes"] = m.planes();
+  out["storedPlanes"] = basis.coding.planes();
   out["response"] = nameOfResponse(m.response);
-  out["coding"] = nameOf(m.coding.coding);
-  out["quality"] = m.coding.quality;
-  out["bits"] = m.coding.bits;
-  out["curve"] = m.coding.curve == Curve::Linear ? "linear" : "signedSqrt";
-  out["step"] = m.coding.step;
+  out["coding"] = nameOf(basis.coding.coding);
+  out["quality"] = basis.coding.quality;
+  out["bits"] = basis.coding.bits;
+  out["curve"] = basis.coding.curve == Curve::Linear ? "linear" : "signedSqrt";
+  out["step"] = basis.coding.step;
   out["mask"] = m.mask;
   out["lights"] = m.lights.size();
   out["heldOut"] = m.heldOut.size();
