@@ -344,7 +344,7 @@ TEST_F(HostileObject, AFutureVersionIsRefusedWithItsSentence) {
 
 TEST_F(HostileObject, HugeDeclaredPicturesCostNothing) {
   const auto entries = withManifest([](auto& root) {
-    root["groups"][0]["size"] = {{"width", 1 << 20}, {"height", 1 << 20}};
+    root["groups"][0]["geometry"]["size"] = {{"width", 1 << 20}, {"height", 1 << 20}};
     root["tile"] = 1360;
   });
   EXPECT_EQ(errorOfOpening(entries), "");

@@ -249,7 +249,7 @@ def test_no_number_of_the_manifest_is_trusted(illum, lossless, tmp_path, value):
 @pytest.mark.parametrize("width, height", [(10**9, 10**9), (2**31 - 1, 1), (0, 0), (-5, 56)])
 def test_huge_declared_sizes(illum, lossless, tmp_path, width, height):
     def edit(manifest):
-        manifest["groups"][0]["size"] = {"width": width, "height": height}
+        manifest["groups"][0]["geometry"]["size"] = {"width": width, "height": height}
     refuses_everywhere(illum, edited(lossless, tmp_path, edit), tmp_path, "object.json")
 
 
