@@ -240,6 +240,46 @@ TEST(Renderer, LightMayGoEitherWay) {
   }
 }
 
+// The integral over the disc of microfacets, cosine and radiance, by rings.
+double highlight(double alpha, Direction light, double radius) {
+  const Frame frame(float3(light.vector()));
+  double sum = 0;
+  constexpr int kRings = 1000, kSpokes = 200;
+  for (int i = 0; i < kRings; ++i) {
+    for (int j = 0; j < kSpokes; ++j) {
+      const double off = radius * (i + 0.5) / kRings, phi = 2 * kPi * (j + 0.5) / kSpokes;
+      const double area = std::sin(off) * (radius / kRings) * (2 * kPi / kSpokes);
+      const Float3 l = frame.world(
+          float3({std::sin(off) * std::cos(phi), std::sin(off) * std::sin(phi), std::cos(off)}));
+      if (l.z <= 0) continue;
+      sum += referenceMicrofacets(alpha, 1, 1, {0, 0, 1}, l) * static_cast<double>(l.z) * area;
+    }
+  }
+  return sum / std::pow(std::sin(radius), 2);
+}
+
+// Points drawn on discs and directions drawn from the material share the work; together they give
+// the integral, whether the highlight or the disc is the narrower one.
+TEST(Renderer, AHighlightIsTheIntegralOverTheDisc) {
+  for (const float roughness : {0.1f, 0.25f, 0.5f, 0.8f}) {
+    Material metal;
+    metal.baseColour = {1, 1, 1};
+    metal.metallic = 1;
+    metal.roughness = roughness;
+    const double alpha = static_cast<double>(roughness) * static_cast<double>(roughness);
+    for (const double radius : {0.02, 0.3}) {
+      const Renderer renderer(planeScene(metal), settings(radius, 256, 0));
+      for (const double theta : {0.0, 0.25, 0.7}) {
+        const Direction light = Direction::fromAngles(theta, 0.4);
+        const double expected = highlight(alpha, light, radius);
+        const auto samples = renderAll(renderer, frontalView(8), {{light, 0}});
+        EXPECT_NEAR(meanOf(samples, 64, 0), expected, 0.01 * expected + 1e-4)
+            << "roughness " << roughness << " radius " << radius << " theta " << theta;
+      }
+    }
+  }
+}
+
 // A mirror shows the disc where the mirrored ray meets it, at its size and radiance.
 TEST(Renderer, AMirrorShowsTheLightsDisc) {
   Scene scene;

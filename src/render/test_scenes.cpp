@@ -85,4 +85,18 @@ std::vector<float> underWhiteSky(const std::vector<float>& samples, std::size_t 
   return sum;
 }
 
+double referenceMicrofacets(double alpha, double facing, double grazing, Float3 toViewer,
+                            Float3 toLight) {
+  const Vector3 v = vector3(toViewer), l = vector3(toLight), sum = v + l;
+  const Vector3 h = (1 / length(sum)) * sum;
+  const double a2 = alpha * alpha;
+  // Walter et al. 2007, equation 33.
+  const double d = a2 / (std::numbers::pi * std::pow(h.z * h.z * (a2 - 1) + 1, 2));
+  // Heitz 2014, equations 72 and 99.
+  const auto lambda = [&](double c) { return (std::sqrt(1 + a2 * (1 / (c * c) - 1)) - 1) / 2; };
+  const double g = 1 / (1 + lambda(v.z) + lambda(l.z));
+  const double f = facing + (grazing - facing) * std::pow(1 - dot(v, h), 5);
+  return d * g * f / (4 * v.z * l.z);
+}
+
 }  // namespace illum

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "render/float3.h"
 #include "render/renderer.h"
 #include "scene/scene.h"
 
@@ -36,5 +37,10 @@ double meanOf(const std::vector<float>& samples, std::size_t pixels, std::size_t
 /// Radiance 1 from everywhere, made of `lights` of equal area: their mean, times 4.
 std::vector<float> underWhiteSky(const std::vector<float>& samples, std::size_t pixels,
                                  std::size_t lights);
+
+/// Microfacets term by term as they stand in the papers, in double precision: directions in a frame
+/// whose z is the normal. The value, without the cosine.
+double referenceMicrofacets(double alpha, double facing, double grazing, Float3 toViewer,
+                            Float3 toLight);
 
 }  // namespace illum
