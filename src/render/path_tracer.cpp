@@ -12,8 +12,6 @@ namespace {
 
 // Mirrors and glass in a row, before the path is given up.
 constexpr int kMostIdeal = 16;
-// Behind a matt surface nothing is taken for smoother than this.
-constexpr float kRoughnessBehindMatt = 0.6f;
 // How a beam widens when it leaves a rough surface: for textures alone.
 constexpr float kScatteredSpread = 0.15f;
 
@@ -30,6 +28,13 @@ float share(float density, float other) {
   return a / (a + b);
 }
 
+// Of microfacets that draw directions with this density at the middle of their highlight,
+// 1 / (4 pi alpha^2), but not more than enough to have no narrow highlights.
+float roughnessOf(float density) {
+  constexpr float kMost = 0.6f;
+  return std::min(kMost, std::pow(4 * std::numbers::pi_v<float> * density, -0.25f));
+}
+
 // How far a new ray has to go to be outside the fibre on which it starts. The chord through a round
 // fibre is 2 r cos / sin^2 long.
 float wayOut(const SurfacePoint& point, Float3 direction) {
@@ -40,11 +45,13 @@ float wayOut(const SurfacePoint& point, Float3 direction) {
   return point.clearance + 0.05f * point.hairRadius + 1.05f * chord;
 }
 
-float startAfter(const SurfacePoint& point, Float3 direction) {
-  return point.kind == Material::Kind::Hair ? wayOut(point, direction) : 0;
-}
-Float3 originFor(const SurfacePoint& point, Float3 direction) {
-  return point.kind == Material::Kind::Hair ? point.position : point.startToward(direction);
+struct RayStart {
+  Float3 origin;
+  float start;
+};
+RayStart startOf(const SurfacePoint& point, Float3 direction) {
+  if (point.kind == Material::Kind::Hair) return {point.position, wayOut(point, direction)};
+  return {point.startToward(direction), 0};
 }
 
 }  // namespace
@@ -55,8 +62,9 @@ struct PathTracer::Path {
   const SampleSequence& sequence;
   LinearRgb throughput{1, 1, 1};
   int corner = 0, bounces = 0, idealInARow = 0;
-  /// A path that was spread once does not resolve narrower highlights than that: the few that
-  /// hit one would be specks (Kaplanyan and Dachsbacher 2013, "Path space regularization").
+  /// Behind a corner where it was spread, a path takes nothing for smoother than what spread it:
+  /// the few that hit a narrow highlight would be specks (after Kaplanyan and Dachsbacher 2013,
+  /// "Path space regularization").
   float leastRoughness = 0;
   /// The share of what a disc sends that this path has to account for, given as the density with
   /// which the direction was drawn: infinite where nothing else could find it, 0 where other paths
@@ -67,8 +75,9 @@ struct PathTracer::Path {
     return sequence.pair(1 + kPurposes * static_cast<std::uint32_t>(corner) + purpose);
   }
   void go(const SurfacePoint& point, Float3 direction, float spread) {
-    beam = {originFor(point, direction), direction, point.beamWidth, spread};
-    start = startAfter(point, direction);
+    const RayStart from = startOf(point, direction);
+    beam = {from.origin, direction, point.beamWidth, spread};
+    start = from.start;
     ++corner;
   }
 };
@@ -142,9 +151,7 @@ bool PathTracer::scatter(const SurfacePoint& point, const Bsdf& bsdf, Path& path
   if (!sample) return false;
   path.throughput = product(path.throughput, sample->weight);
   path.discDensity = alsoDrawn ? sample->density : 0;
-  path.leastRoughness = std::max(
-      path.leastRoughness,
-      bsdf.isGlossy() ? std::min(point.roughness, kRoughnessBehindMatt) : kRoughnessBehindMatt);
+  path.leastRoughness = std::max(path.leastRoughness, roughnessOf(sample->density));
   path.idealInARow = 0;
   ++path.bounces;
   path.go(point, sample->direction, kScatteredSpread);
@@ -163,41 +170,50 @@ void PathTracer::addLights(const SurfacePoint& point, const Bsdf& bsdf, const Pa
     const DirectionBatch& directions = lights_.draw(first / kBatch, onDisc, directions_);
     bsdf.evaluate(directions, count, values_);
 
-    std::size_t rays = 0;
-    for (std::size_t i = 0; i < count; ++i) {
-      if (!(values_.r[i] + values_.g[i] + values_.b[i] > 0)) continue;
-      const Float3 direction{directions.x[i], directions.y[i], directions.z[i]};
-      const Float3 origin = originFor(point, direction);
-      ShadowRay& ray = rays_[rays++];
-      ray = {origin.x,
-             origin.y,
-             origin.z,
-             startAfter(point, direction),
-             direction.x,
-             direction.y,
-             direction.z,
-             0,
-             std::numeric_limits<float>::infinity(),
-             ~0u,
-             static_cast<std::uint32_t>(i),
-             0};
-      shares_[i] = alsoDrawn ? share(lights_.density(), values_.density[i]) : 1;
+    const std::size_t rays = aimAt(point, directions, count);
+    if (alsoDrawn) {
+      for (std::size_t i = 0; i < count; ++i) {
+        shares_[i] = share(lights_.density(), values_.density[i]);
+      }
     }
     if (tree_.hasGlass()) depths_.fill({});
     tree_.shadows({rays_.data(), rays}, depths_);
-
     for (std::size_t r = 0; r < rays; ++r) {
       if (rays_[r].end < 0) continue;
       const std::size_t i = rays_[r].id;
       LinearRgb value{values_.r[i] * weight.r, values_.g[i] * weight.g, values_.b[i] * weight.b};
-      if (depths_[i] == OpticalDepth{}) {
-        value = shares_[i] * value;
-      } else {
+      if (tree_.hasGlass() && depths_[i] != OpticalDepth{}) {
         value = product(value, transmittance(depths_[i]));  // no drawn direction comes here
+      } else if (alsoDrawn) {
+        value = shares_[i] * value;
       }
       sums.add(first + i, value);
     }
   }
+}
+
+// Shadow rays to those lights of a batch from which `values_` has anything, their number.
+std::size_t PathTracer::aimAt(const SurfacePoint& point, const DirectionBatch& directions,
+                              std::size_t count) {
+  const bool isHair = point.kind == Material::Kind::Hair;
+  // All that counts is on the viewer's side of a surface.
+  RayStart from = startOf(point, point.geometricNormal);
+  std::size_t rays = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    if (!(values_.r[i] + values_.g[i] + values_.b[i] > 0)) continue;
+    const Float3 direction{directions.x[i], directions.y[i], directions.z[i]};
+    if (isHair) from = startOf(point, direction);
+    rays_[rays++] = {.originX = from.origin.x,
+                     .originY = from.origin.y,
+                     .originZ = from.origin.z,
+                     .start = from.start,
+                     .directionX = direction.x,
+                     .directionY = direction.y,
+                     .directionZ = direction.z,
+                     .end = std::numeric_limits<float>::infinity(),
+                     .id = static_cast<std::uint32_t>(i)};
+  }
+  return rays;
 }
 
 // The path has left the scene: what it sees there.
