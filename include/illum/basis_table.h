@@ -60,6 +60,9 @@ class BasisTable {
   /// The columns' values for a light from `d`. `out` has columns() entries.
   void evaluate(Direction d, std::span<float> out) const;
 
+  /// The same at a point of the chart, whose cell must touch the disc; squares as the domain has.
+  void evaluate(ChartPoint p, std::span<float> out) const;
+
   /// values[((square * columns + column) * side + row) * side + col]; row runs with y.
   std::span<float> values() { return values_; }
   std::span<const float> values() const { return values_; }
@@ -85,8 +88,6 @@ class BasisTable {
   friend bool operator==(const BasisTable& a, const BasisTable& b);
 
  private:
-  void interpolate(ChartPoint p, std::span<float> out) const;
-
   LightDomain domain_ = LightDomain::Hemisphere;
   int resolution_ = 0, columns_ = 0;
   std::vector<float> values_, southPole_;

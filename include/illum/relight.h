@@ -4,12 +4,34 @@
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <utility>
 
 #include "illum/light.h"
+#include "illum/lighting.h"
 #include "illum/object.h"
 #include "illum/picture.h"
 
 namespace illum {
+
+/// Lights made ready for one group of views: what is computed once, whatever is relit under them
+/// then. Cheap to copy; thread safe.
+class PreparedLights {
+ public:
+  int group() const;
+
+ private:
+  friend class Relighter;
+  struct State;
+  explicit PreparedLights(std::shared_ptr<const State> state) : state_(std::move(state)) {}
+  std::shared_ptr<const State> state_;
+};
+
+/// How lights are made ready.
+struct PrepareOptions {
+  /// Where a photograph's pixels lie for lights near the object: z in units of the object, in
+  /// channel 0 of a picture of the photograph's size. Empty: the plane z = 0.
+  std::shared_ptr<const Picture> heights;
+};
 
 /// Relights views of one object, keeping decoded tiles. Thread safe.
 class Relighter {
@@ -27,6 +49,14 @@ class Relighter {
   /// decoded.
   Picture relightRegion(std::span<const DirectionalLight> lights, const Rectangle& region,
                         int group = 0, int level = 0) const;
+
+  /// Makes lights of all kinds ready for a group of views. Where the response is linear, all lights
+  /// at infinity together, environments among them, then cost what one costs.
+  PreparedLights prepare(const Illumination& lights, int group = 0,
+                         const PrepareOptions& options = {}) const;
+  /// As above, of the group that the lights were prepared for.
+  Picture relight(const PreparedLights& lights, int level = 0) const;
+  Picture relightRegion(const PreparedLights& lights, const Rectangle& region, int level = 0) const;
 
  private:
   struct State;

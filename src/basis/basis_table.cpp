@@ -1,35 +1,15 @@
 #include "illum/basis_table.h"
 
 #include <algorithm>
-#include <array>
 #include <cassert>
 #include <cmath>
 #include <numbers>
 
+#include "basis/catmull_rom.h"
 #include "basis/chart.h"
 
 namespace illum {
 namespace {
-
-// Weights of the four samples around a cell at t in [0, 1] between the middle two: Catmull and Rom
-// 1974 with tension 1/2, written so that t = 0 and t = 1 give exact zeros and ones.
-std::array<double, 4> catmullRom(double t) {
-  const double t2 = t * t, t3 = t2 * t;
-  return {0.5 * (-t + 2 * t2 - t3), 0.5 * (2 - 5 * t2 + 3 * t3), 0.5 * (t + 4 * t2 - 3 * t3),
-          0.5 * (-t2 + t3)};
-}
-
-// The cell of an axis that a chart coordinate lies in, and its place there.
-struct CellCoordinate {
-  int cell;
-  std::array<double, 4> weights;
-};
-
-CellCoordinate cellCoordinate(double chart, int resolution) {
-  const double u = chart * (resolution - 1);
-  const int cell = std::clamp(static_cast<int>(std::floor(u)), 0, resolution - 2);
-  return {cell, catmullRom(u - cell)};
-}
 
 // Azimuths over which the equator's mean is taken: several per cell of the finest usual table.
 constexpr int kEquatorSamples = 1024;
@@ -72,13 +52,13 @@ void BasisTable::setSouthPoleFromEquator() {
   std::vector<float> value(columns_);
   for (int i = 0; i < kEquatorSamples; ++i) {
     const double phi = 2 * std::numbers::pi * i / kEquatorSamples;
-    interpolate({0, 0.5 + 0.5 * std::cos(phi), 0.5 + 0.5 * std::sin(phi)}, value);
+    evaluate(ChartPoint{0, 0.5 + 0.5 * std::cos(phi), 0.5 + 0.5 * std::sin(phi)}, value);
     for (int c = 0; c < columns_; ++c) sum[c] += value[c];
   }
   for (int c = 0; c < columns_; ++c) southPole_[c] = static_cast<float>(sum[c] / kEquatorSamples);
 }
 
-void BasisTable::interpolate(ChartPoint p, std::span<float> out) const {
+void BasisTable::evaluate(ChartPoint p, std::span<float> out) const {
   const CellCoordinate x = cellCoordinate(p.x, resolution_), y = cellCoordinate(p.y, resolution_);
   const std::size_t rowStride = side(), columnStride = rowStride * side();
   const float* base = values_.data() +
@@ -98,20 +78,17 @@ void BasisTable::interpolate(ChartPoint p, std::span<float> out) const {
 void BasisTable::evaluate(Direction d, std::span<float> out) const {
   assert(out.size() == static_cast<std::size_t>(columns_));
   if (domain_ == LightDomain::Sphere || d.z() >= 0) {
-    interpolate(chartFromDirection(d), out);
+    evaluate(chartFromDirection(d), out);
     return;
   }
-  // Figure 11 of the paper: from the equator's value under the same azimuth, linearly in theta, to
-  // the constant at the south pole.
-  const double horizontal = std::hypot(d.x(), d.y());
-  const double share = std::clamp(2 * d.thetaRadians() / std::numbers::pi - 1, 0.0, 1.0);
-  if (horizontal == 0) {
+  const BelowHorizon below = belowHorizon(d);
+  if (below.southPole == 1) {
     std::copy(southPole_.begin(), southPole_.end(), out.begin());
     return;
   }
-  interpolate({0, 0.5 + 0.5 * d.x() / horizontal, 0.5 + 0.5 * d.y() / horizontal}, out);
+  evaluate(below.equator, out);
   for (int c = 0; c < columns_; ++c) {
-    out[c] = static_cast<float>((1 - share) * out[c] + share * southPole_[c]);
+    out[c] = static_cast<float>((1 - below.southPole) * out[c] + below.southPole * southPole_[c]);
   }
 }
 

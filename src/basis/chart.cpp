@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "illum/basis_table.h"
 
@@ -44,6 +45,13 @@ std::vector<std::uint8_t> reachableSamples(int resolution) {
     }
   }
   return reachable;
+}
+
+BelowHorizon belowHorizon(Direction d) {
+  const double horizontal = std::hypot(d.x(), d.y());
+  if (horizontal == 0) return {{}, 1};
+  const double share = std::clamp(2 * d.thetaRadians() / std::numbers::pi - 1, 0.0, 1.0);
+  return {{0, 0.5 + 0.5 * d.x() / horizontal, 0.5 + 0.5 * d.y() / horizontal}, share};
 }
 
 }  // namespace illum

@@ -1,5 +1,8 @@
-// Which samples of a chart square interpolation can reach (docs/format.md, "basis.bin").
+// The chart of directions: which samples interpolation can reach, and what is below the horizon
+// (docs/format.md, "basis.bin").
 #pragma once
+
+#include "illum/basis_table.h"
 
 #include <cstdint>
 #include <vector>
@@ -12,5 +15,15 @@ namespace illum {
 /// spans [2i, 2i+2] x [2j, 2j+2] for 0 <= i, j < N-1, and its stencil is samples i … i+3 by j …
 /// j+3.
 std::vector<std::uint8_t> reachableSamples(int resolution);
+
+/// How a table of the hemisphere is continued below the horizon (figure 11 of Wong et al. 1997):
+/// from the equator's value under the same azimuth, linearly in theta, to a constant at the south
+/// pole.
+struct BelowHorizon {
+  ChartPoint equator;
+  double southPole = 0;  ///< the constant's share, in [0, 1]; the equator has the rest
+};
+/// Of a direction with z < 0.
+BelowHorizon belowHorizon(Direction d);
 
 }  // namespace illum

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <nlohmann/json.hpp>
@@ -64,19 +65,38 @@ inline void checkText(const FieldPath& path, const std::string& text) {
                      fmt::format("{}", text.size()));
 }
 
+inline constexpr std::size_t kShownBytes = 40;
+
 /// A short form of what was found in the place of a value.
 inline std::string shown(const Json& value) {
-  constexpr std::size_t kShown = 40;
   if (value.is_structured()) return value.is_array() ? "a list" : "a record";
   const std::string text = value.dump(-1, ' ', true, Json::error_handler_t::replace);
-  return text.size() <= kShown ? text : text.substr(0, kShown) + "...";
+  return text.size() <= kShownBytes ? text : text.substr(0, kShownBytes) + "...";
 }
+
+/// What becomes of fields that no description names: files that newer versions may extend skip
+/// them, files that people write refuse them, so that a misspelt name does not go unnoticed.
+enum class Unknown { Skip, Refuse };
 
 /// Fills records from JSON, throwing Error that names the field for whatever is missing or wrong.
 class Reader {
  public:
-  Reader(const Json& node, FieldPath path) : node_(node), path_(path) {
+  Reader(const Json& node, FieldPath path, Unknown unknown = Unknown::Skip)
+      : node_(node), path_(path), unknown_(unknown) {
     if (!node.is_object()) throw path.wrong("a record", shown(node));
+  }
+
+  /// After the description: throws Error for fields that it did not name, if they are refused.
+  void finish() const {
+    if (unknown_ == Unknown::Skip) return;
+    for (auto field = node_.begin(); field != node_.end(); ++field) {
+      if (std::find(named_.begin(), named_.end(), field.key()) != named_.end()) continue;
+      std::string names;
+      for (const std::string_view name : named_)
+        names += fmt::format("{}'{}'", names.empty() ? "" : ", ", name);
+      const std::string key = field.key().substr(0, kShownBytes);
+      throw FieldPath(&path_, key).wrong("one of " + names, "another name");
+    }
   }
 
   template <typename Integer>
@@ -157,8 +177,9 @@ class Reader {
   void record(Name name, Record& value) {
     const Json* node = find(name);
     if (node == nullptr) return;
-    Reader reader(*node, FieldPath(&path_, name.text));
+    Reader reader(*node, FieldPath(&path_, name.text), unknown_);
     describe(reader, value);
+    reader.finish();
   }
   template <typename Record>
   void maybeRecord(std::string_view name, std::optional<Record>& value) {
@@ -172,19 +193,21 @@ class Reader {
     if (node == nullptr) return;
     values.clear();
     for (std::size_t i = 0; i < node->size(); ++i) {
-      Reader reader((*node)[i], FieldPath(&path, i));
+      Reader reader((*node)[i], FieldPath(&path, i), unknown_);
       describe(reader, values.emplace_back());
+      reader.finish();
     }
   }
 
  private:
-  const Json* find(Name name) const {
+  const Json* find(Name name) {
+    if (unknown_ == Unknown::Refuse) named_.push_back(name.text);
     const auto found = node_.find(name.text);
     if (found != node_.end()) return &*found;
     if (!name.optional) throw FieldPath(&path_, name.text).wrong("a value", "none");
     return nullptr;
   }
-  const Json* findList(Name name, std::size_t least, std::size_t most) const {
+  const Json* findList(Name name, std::size_t least, std::size_t most) {
     const Json* node = find(name);
     if (node == nullptr) return nullptr;
     const FieldPath path(&path_, name.text);
@@ -210,6 +233,8 @@ class Reader {
 
   const Json& node_;
   FieldPath path_;
+  Unknown unknown_;
+  std::vector<std::string_view> named_;  // by the description so far
 };
 
 /// Writes what Reader reads, and refuses what it would refuse.

@@ -9,8 +9,8 @@
 
 #include "illum/error.h"
 #include "object/manifest.h"
+#include "relight/prepared_lights.h"
 #include "relight/tile_cache.h"
-#include "relight/weighted_sum.h"
 
 namespace illum {
 namespace {
@@ -37,62 +37,6 @@ void checkRegion(const Object& object, const Rectangle& region, Size size) {
                           size.width, size.height));
 }
 
-// Lights are given in the object frame, the basis is a function of the group's own.
-Direction inGroup(const View& view, Direction toLight) {
-  const RigidTransform objectFromView = objectFromGroup(view.geometry);
-  if (objectFromView.rotation == RigidTransform().rotation) return toLight;
-  return inverse(objectFromView).direction(toLight);
-}
-
-// One set of weights per pass over the planes: a linear response lets all lights share one.
-struct Pass {
-  FoldedWeights weights;
-  LinearRgb intensity{1, 1, 1};  // applied behind the response
-};
-
-std::vector<Pass> passesFor(const Object& object, int group,
-                            std::span<const DirectionalLight> lights) {
-  const LightBasis& basis = object.basis(group);
-  const CodingEntry& coding = object.manifest().coding(group);
-  const bool linear = object.manifest().response == Response::Linear;
-  std::vector<Pass> passes;
-  for (const DirectionalLight& light : lights) {
-    const Direction toLight = inGroup(object.view(group), light.toLight);
-    if (!linear) {
-      passes.push_back({foldWeights(basis, coding, toLight), light.intensity});
-      continue;
-    }
-    const auto folded = foldWeights(basis, coding, toLight, light.intensity);
-    if (passes.empty()) {
-      passes.push_back({folded, {}});
-    } else {
-      addWeights(passes.front().weights, folded);
-    }
-  }
-  return passes;
-}
-
-// Linear RGB of `texels` texels of a tile from `first` on.
-void relightTexels(const PlaneCodes& codes, const CodingEntry& coding, Response response,
-                   std::span<const Pass> passes, std::size_t first, std::span<float> rgb,
-                   std::vector<float>& scratch) {
-  if (response == Response::Linear && !passes.empty()) {
-    weightedSum(codes, coding, passes.front().weights, first, rgb);
-    return;
-  }
-  std::fill(rgb.begin(), rgb.end(), 0.0f);
-  scratch.resize(rgb.size());
-  for (const Pass& pass : passes) {
-    weightedSum(codes, coding, pass.weights, first, scratch);
-    applyResponse(response, scratch);
-    for (std::size_t i = 0; i < rgb.size(); i += 3) {
-      rgb[i] += pass.intensity.r * scratch[i];
-      rgb[i + 1] += pass.intensity.g * scratch[i + 1];
-      rgb[i + 2] += pass.intensity.b * scratch[i + 2];
-    }
-  }
-}
-
 // `mask`: the texels' coverage; empty for a picture without alpha.
 void storeRow(std::span<const float> rgb, std::span<const std::uint8_t> mask, float* out) {
   if (mask.empty()) {
@@ -111,6 +55,23 @@ Rectangle intersection(const Rectangle& a, const Rectangle& b) {
   return {x, y, std::min(a.right(), b.right()) - x, std::min(a.bottom(), b.bottom()) - y};
 }
 
+// Lights are given in the object frame, the basis is a function of the group's own.
+Illumination inGroup(const View& view, const Illumination& lights) {
+  const RigidTransform objectFromView = objectFromGroup(view.geometry);
+  if (objectFromView == RigidTransform()) return lights;
+  const RigidTransform groupFromObject = inverse(objectFromView);
+  Illumination turned = lights;
+  for (DirectionalLight& light : turned.directional)
+    light.toLight = groupFromObject.direction(light.toLight);
+  for (NearLight& light : turned.nearby) {
+    light.position = groupFromObject.point(light.position);
+    light.axis = groupFromObject.vector(light.axis);
+  }
+  for (Environment& environment : turned.environments)
+    environment = environment.turned(groupFromObject);
+  return turned;
+}
+
 }  // namespace
 
 struct Relighter::State {
@@ -122,21 +83,53 @@ Relighter::Relighter(Object object, std::uint64_t memoryBytes)
     : state_(std::make_unique<State>(std::move(object), memoryBytes)) {}
 Relighter::~Relighter() = default;
 
-Picture Relighter::relight(std::span<const DirectionalLight> lights, int group, int level) const {
+int PreparedLights::group() const {
+  return state_->group;
+}
+
+PreparedLights Relighter::prepare(const Illumination& lights, int group,
+                                  const PrepareOptions& options) const {
   const Object& object = state_->cache.object();
-  checkRequest(object, group, level);
-  const Size size = object.manifest().grid(group).sizeAt(level);
-  return relightRegion(lights, {0, 0, size.width, size.height}, group, level);
+  checkRequest(object, group, 0);
+  const Illumination turned = inGroup(object.view(group), lights);
+  const CodingEntry& coding = object.manifest().coding(group);
+  const Response response = object.manifest().response;
+  auto state =
+      std::make_shared<PreparedLights::State>(PreparedLights::State{object, group, {}, {}, {}});
+  state->distant =
+      Passes(object.basis(group), coding, response, turned.directional, turned.environments);
+  if (!turned.nearby.empty()) {
+    state->nearby = NearLights(object.basis(group), coding, response, turned.nearby);
+    state->surface = Surface(object, group, options.heights);
+  }
+  return PreparedLights(std::move(state));
+}
+
+Picture Relighter::relight(std::span<const DirectionalLight> lights, int group, int level) const {
+  return relight(prepare({{lights.begin(), lights.end()}, {}, {}}, group), level);
+}
+
+Picture Relighter::relight(const PreparedLights& lights, int level) const {
+  const Object& object = state_->cache.object();
+  checkRequest(object, lights.group(), level);
+  const Size size = object.manifest().grid(lights.group()).sizeAt(level);
+  return relightRegion(lights, {0, 0, size.width, size.height}, level);
 }
 
 Picture Relighter::relightRegion(std::span<const DirectionalLight> lights, const Rectangle& region,
                                  int group, int level) const {
+  return relightRegion(prepare({{lights.begin(), lights.end()}, {}, {}}, group), region, level);
+}
+
+Picture Relighter::relightRegion(const PreparedLights& lights, const Rectangle& region,
+                                 int level) const {
   const Object& object = state_->cache.object();
+  const PreparedLights::State& prepared = *lights.state_;
+  const int group = prepared.group;
   checkRequest(object, group, level);
   const Manifest& manifest = object.manifest();
   const TileGrid grid = manifest.grid(group);
   checkRegion(object, region, grid.sizeAt(level));
-  const auto passes = passesFor(object, group, lights);
   Picture picture(region.size(), manifest.mask ? 4 : 3);
 
   const auto relightTile = [&](int x, int y) {
@@ -144,14 +137,20 @@ Picture Relighter::relightRegion(std::span<const DirectionalLight> lights, const
     const Rectangle part = intersection(tile, region);
     const auto codes = state_->cache.planes({group, level, x, y});
     const BytePicture mask = manifest.mask ? object.maskTile(group, level, x, y) : BytePicture();
+    const bool near = !prepared.nearby.empty();
+    const SurfaceTile surface = near ? prepared.surface.tile(level, x, y) : SurfaceTile();
     const auto width = static_cast<std::size_t>(part.width);
     const auto left = static_cast<std::size_t>(part.x - tile.x);
     tbb::parallel_for(tbb::blocked_range<int>(part.y, part.bottom(), 16), [&](const auto& rows) {
       std::vector<float> rgb(3 * width), scratch;
+      std::vector<Vector3> points(near ? width : 0);
       for (int row = rows.begin(); row < rows.end(); ++row) {
         const auto first = Size{tile.width, row - tile.y}.pixels() + left;
-        relightTexels(*codes, manifest.coding(group), manifest.response, passes, first, rgb,
-                      scratch);
+        prepared.distant.relight(*codes, first, rgb, scratch);
+        if (near) {
+          surface.points(part.x - tile.x, row - tile.y, points);
+          prepared.nearby.addTo(rgb, *codes, first, points);
+        }
         storeRow(rgb, mask.empty() ? mask.samples() : mask.row(row - tile.y).subspan(left, width),
                  &picture.at(part.x - region.x, row - region.y, 0));
       }

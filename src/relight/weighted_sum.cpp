@@ -42,21 +42,15 @@ void planeValues(const std::uint16_t* codes, std::size_t count, const CodingEntr
 
 }  // namespace
 
-FoldedWeights foldWeights(const LightBasis& basis, const CodingEntry& coding, Direction toLight,
-                          LinearRgb intensity) {
-  std::vector<float> values(basis.evaluateSize());
-  basis.evaluate(toLight, values);
-  const std::array<double, 3> colour{intensity.r, intensity.g, intensity.b};
-  const std::size_t mean = 3 * static_cast<std::size_t>(basis.planes());
-
+FoldedWeights foldWeights(std::span<const double> basisValues, const CodingEntry& coding) {
   FoldedWeights folded;
   folded.perPlane.resize(coding.functions.size());
-  std::array<double, 3> constant{};
-  for (std::size_t c = 0; c < 3; ++c) constant[c] = colour[c] * values[mean + c];
+  const auto mean = basisValues.last(3);
+  std::array<double, 3> constant{mean[0], mean[1], mean[2]};
   for (std::size_t p = 0; p < coding.functions.size(); ++p) {
     const auto function = static_cast<std::size_t>(coding.functions[p]);
     for (std::size_t c = 0; c < 3; ++c) {
-      const double b = colour[c] * values[3 * function + c];
+      const double b = basisValues[3 * function + c];
       if (coding.curve == Curve::Linear) {
         folded.perPlane[p][c] = static_cast<float>(b * coding.step);
         constant[c] += b * coding.offsets[p];
@@ -69,11 +63,10 @@ FoldedWeights foldWeights(const LightBasis& basis, const CodingEntry& coding, Di
   return folded;
 }
 
-void addWeights(FoldedWeights& a, const FoldedWeights& b) {
-  for (std::size_t p = 0; p < a.perPlane.size(); ++p) {
-    for (std::size_t c = 0; c < 3; ++c) a.perPlane[p][c] += b.perPlane[p][c];
-  }
-  for (std::size_t c = 0; c < 3; ++c) a.constant[c] += b.constant[c];
+FoldedWeights foldWeights(const LightBasis& basis, const CodingEntry& coding, Direction toLight) {
+  std::vector<float> values(basis.evaluateSize());
+  basis.evaluate(toLight, values);
+  return foldWeights(std::vector<double>(values.begin(), values.end()), coding);
 }
 
 void weightedSum(const PlaneCodes& codes, const CodingEntry& coding, const FoldedWeights& weights,

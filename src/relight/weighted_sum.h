@@ -21,12 +21,11 @@ struct FoldedWeights {
   std::array<float, 3> constant{};
 };
 
-/// Folds m(w) + sum_k b_k(w) P_k for a light from `toLight`, times `intensity` per channel.
-FoldedWeights foldWeights(const LightBasis& basis, const CodingEntry& coding, Direction toLight,
-                          LinearRgb intensity = {1, 1, 1});
-
-/// Adds `b` to `a`; both folded from the same basis and coding.
-void addWeights(FoldedWeights& a, const FoldedWeights& b);
+/// Folds m + sum_k b_k P_k. `basisValues`: as LightBasis::evaluate gives them, of one light or
+/// summed over a set.
+FoldedWeights foldWeights(std::span<const double> basisValues, const CodingEntry& coding);
+/// The same for a light of intensity 1 from `toLight`.
+FoldedWeights foldWeights(const LightBasis& basis, const CodingEntry& coding, Direction toLight);
 
 /// rgb[3 * i + c] for the texels first … first + rgb.size() / 3 - 1 of the tile.
 void weightedSum(const PlaneCodes& codes, const CodingEntry& coding, const FoldedWeights& weights,

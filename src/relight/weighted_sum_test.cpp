@@ -5,6 +5,7 @@
 #include <cmath>
 #include <random>
 
+#include "basis/light_sum.h"
 #include "illum/colour.h"
 
 namespace illum {
@@ -80,12 +81,15 @@ TEST(WeightedSum, ALightSetCostsOnePassAndIsTheSumOfItsLights) {
   const DirectionalLight a{Direction::fromVector({1, 0, 1}), {0.5f, 0.2f, 3}};
   const DirectionalLight b{Direction::fromVector({-1, 2, 1}), {1, 0, 0.25f}};
   std::vector<float> one(3 * 256), two(3 * 256), both(3 * 256);
-  auto folded = foldWeights(basis, coding, a.toLight, a.intensity);
-  weightedSum(codes, coding, folded, 0, one);
-  weightedSum(codes, coding, foldWeights(basis, coding, b.toLight, b.intensity), 0, two);
-  addWeights(folded, foldWeights(basis, coding, b.toLight, b.intensity));
-  weightedSum(codes, coding, folded, 0, both);
-  for (std::size_t i = 0; i < both.size(); ++i) EXPECT_NEAR(both[i], one[i] + two[i], 1e-5);
+  LightSum set(basis.table().domain(), basis.table().resolution());
+  set.add(a.toLight, a.intensity);
+  set.add(b.toLight, b.intensity);
+  weightedSum(codes, coding, foldWeights(basis, coding, a.toLight), 0, one);
+  weightedSum(codes, coding, foldWeights(basis, coding, b.toLight), 0, two);
+  weightedSum(codes, coding, foldWeights(set.weights(basis), coding), 0, both);
+  const std::array<float, 3> ofA{0.5f, 0.2f, 3}, ofB{1, 0, 0.25f};
+  for (std::size_t i = 0; i < both.size(); ++i)
+    EXPECT_NEAR(both[i], ofA[i % 3] * one[i] + ofB[i % 3] * two[i], 1e-5) << i;
 }
 
 TEST(ApplyResponse, DisplayClampsAndDecodes) {

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
 #include <filesystem>
 #include <memory>
 #include <set>
@@ -12,6 +11,7 @@
 #include "illum/light_file.h"
 #include "illum/picture_io.h"
 #include "input_options.h"
+#include "light_options.h"
 #include "terminal_progress.h"
 
 namespace illum::cli {
@@ -19,39 +19,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// "x,y,z" or "x,y,z,r,g,b"
-DirectionalLight lightFromText(const std::string& text) {
-  std::vector<double> numbers;
-  for (const auto& part : CLI::detail::split(text, ',')) {
-    double number = 0;
-    const bool fine = CLI::detail::lexical_cast(part, number) && std::isfinite(number);
-    if (!fine) {
-      numbers.clear();
-      break;
-    }
-    numbers.push_back(number);
-  }
-  if (numbers.size() != 3 && numbers.size() != 6) {
-    throw Error(Fault::Usage,
-                fmt::format("--light: expected x,y,z or x,y,z,r,g,b, found \"{}\"", text));
-  }
-  DirectionalLight light;
-  try {
-    light.toLight = Direction::fromVector({numbers[0], numbers[1], numbers[2]});
-  } catch (const Error&) {
-    throw Error(Fault::Usage, fmt::format("--light: expected a direction, found \"{}\"", text));
-  }
-  if (numbers.size() == 6) {
-    light.intensity = {static_cast<float>(numbers[3]), static_cast<float>(numbers[4]),
-                       static_cast<float>(numbers[5])};
-  }
-  return light;
-}
-
 struct RelightCommand {
   MachineOptions machine;
-  std::string object, output, lightFile, format = "png";
-  std::vector<std::string> lights;
+  LightOptions lights;
+  std::string object, output, lightFile, heights, format = "png";
   double exposureStops = 0;
   int level = 0;
   bool force = false;
@@ -59,16 +30,14 @@ struct RelightCommand {
   void addTo(CLI::App& command) {
     command.add_option("OBJECT", object, ".illum file or folder")->required();
     command.add_option("-o,--output", output, "picture, or folder with --lights")->required();
-    auto* one =
-        command.add_option("--light", lights, "x,y,z[,r,g,b] toward the light; repeat for several")
-            ->expected(1)
-            ->take_all();
-    command.add_option("--lights", lightFile, "light file: a picture for each of its lines")
-        ->excludes(one);
+    command.add_option("--lights", lightFile, "light file: a picture for each of its lines");
+    command.add_option("--height", heights,
+                       "picture of z, in units of the object, for lights near a photograph");
     command.add_option("--exposure", exposureStops, "in stops");
     command.add_option("--level", level, "0 is full size, each further one half");
     command.add_option("--format", format, "png (default), jpg or exr, with --lights");
     command.add_flag("--force", force, "write into a folder that is not empty");
+    lights.addTo(command);
     machine.addTo(command);
   }
 
@@ -103,17 +72,26 @@ struct RelightCommand {
     progress.end();
   }
 
+  PrepareOptions prepareOptions() const {
+    PrepareOptions options;
+    if (!heights.empty()) options.heights = std::make_shared<const Picture>(readPicture(heights));
+    return options;
+  }
+
   int run() const {
-    if (lights.empty() && lightFile.empty()) {
-      throw Error(Fault::Usage, "relight: expected --light or --lights, found neither");
+    if (lights.empty() == lightFile.empty()) {
+      throw Error(Fault::Usage,
+                  fmt::format("relight: expected either lights (--light, --point, --spot, --env, "
+                              "--sky, --lighting) or --lights, found {}",
+                              lights.empty() ? "neither" : "both"));
     }
     const ThreadLimit limit(machine.threads);
-    std::vector<DirectionalLight> directional;
-    for (const auto& text : lights) directional.push_back(lightFromText(text));
+    const Lighting lighting = lights.lighting();
     if (lightFile.empty()) pictureFormat(output);
     const Relighter relighter(Object::open(object), machine.memoryBytes() / 2);
     if (lightFile.empty()) {
-      writePicture(output, relighter.relight(directional, 0, level), exposureStops);
+      const auto prepared = relighter.prepare(illuminationOf(lighting), 0, prepareOptions());
+      writePicture(output, relighter.relight(prepared, level), exposureStops);
     } else {
       relightEach(relighter);
     }
