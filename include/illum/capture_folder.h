@@ -1,5 +1,5 @@
-// Captures of many views as folders of pictures: FOLDER/capture.json and what it names
-// (docs/guide/capture.md).
+// Captures of many views as folders of pictures: FOLDER/capture.json and what it names, or another
+// program's list of cameras (docs/guide/capture.md).
 #pragma once
 
 #include <cstdint>
@@ -12,8 +12,12 @@
 
 namespace illum {
 
-/// Opens a folder that holds a capture.json. Of the options only memoryBytes and scratch count.
-/// Throws Error. `progress` must outlive the capture.
+/// Whether a folder says where its pictures were taken from: by a capture.json, a transforms.json
+/// (nerfstudio, instant-ngp), or the text files of COLMAP in it, in sparse/ or in sparse/0/.
+bool isCaptureFolder(const std::filesystem::path& folder);
+
+/// Opens such a folder. Of the options only memoryBytes and scratch count. Throws Error. `progress`
+/// must outlive the capture.
 std::unique_ptr<Capture> openCaptureFolder(const std::filesystem::path& folder,
                                            const PhotographOptions& options, Progress& progress);
 

@@ -30,6 +30,7 @@ struct FileRecord {
   std::vector<LightRecord> lights;
   std::vector<LightSlab> slabs;
   std::vector<ViewEntry> views;
+  std::string proxy;
 };
 
 // Found by argument-dependent lookup of the visitors, which live with their records.
@@ -49,6 +50,7 @@ void describe(Visitor& v, FileRecord& file) {
   v.records("lights", file.lights, 1, kMaxLights);
   v.records(optional("slabs"), file.slabs, 0, kMaxViews);
   v.records("views", file.views, 1, kMaxViews);
+  v.text(optional("proxy"), file.proxy);
 }
 
 void checkVersion(const Json& root, const FieldPath& top) {
@@ -82,15 +84,12 @@ void checkName(const FieldPath& path, const std::string& name) {
   if (!staysInside(name)) throw path.wrong("the name of a file in the folder", '\'' + name + '\'');
 }
 
-CaptureFileView viewOf(const ViewEntry& entry, const std::vector<LightSlab>& slabs,
-                       const FieldPath& path) {
-  checkName(FieldPath(&path, "photographs"), entry.photographs);
-  if (!entry.mask.empty()) checkName(FieldPath(&path, "mask"), entry.mask);
-  if (!entry.depth.empty()) checkName(FieldPath(&path, "depth"), entry.depth);
-  CaptureFileView view{
-      {entry.name, geometryOf(entry.geometry, slabs)}, entry.photographs, entry.mask, entry.depth};
+void checkView(const FieldPath& path, const CaptureFileView& view) {
+  if (view.files.empty()) checkName(FieldPath(&path, "photographs"), view.photographs);
+  for (const std::string& file : view.files) checkName(FieldPath(&path, "photographs"), file);
+  if (!view.mask.empty()) checkName(FieldPath(&path, "mask"), view.mask);
+  if (!view.depth.empty()) checkName(FieldPath(&path, "depth"), view.depth);
   checkGeometry(view.view.geometry);
-  return view;
 }
 
 void checkUnique(const CaptureFile& capture) {
@@ -128,11 +127,16 @@ CaptureFile readCapture(std::string_view text) {
     capture.lights.push_back(
         {std::move(light.name), {Direction::fromVector(light.direction), light.intensity}, 0});
   }
-  const FieldPath views(&top, "views");
   for (std::size_t i = 0; i < file.views.size(); ++i) {
-    capture.views.push_back(viewOf(file.views[i], file.slabs, FieldPath(&views, i)));
+    ViewEntry& entry = file.views[i];
+    capture.views.push_back({{std::move(entry.name), geometryOf(entry.geometry, file.slabs)},
+                             std::move(entry.photographs),
+                             std::move(entry.mask),
+                             std::move(entry.depth),
+                             {}});
   }
-  checkUnique(capture);
+  capture.proxy = std::move(file.proxy);
+  checkCaptureFile(capture);
   return capture;
 }
 
@@ -145,7 +149,7 @@ void replaceAll(std::string& text, std::string_view word, std::string_view by) {
 }  // namespace
 
 std::string textOf(const CaptureFile& capture) {
-  FileRecord file{capture.generator, capture.rendered, {}, {}, {}};
+  FileRecord file{capture.generator, capture.rendered, {}, {}, {}, capture.proxy};
   for (const LightFileEntry& entry : capture.lights) {
     file.lights.push_back({entry.name, entry.light.toLight.vector(), entry.light.intensity});
   }
@@ -171,8 +175,24 @@ CaptureFile captureFileFromText(std::string_view json, const std::string& source
   }
 }
 
-std::filesystem::path pictureOf(const std::string& pattern, const LightFileEntry& light,
+void checkCaptureFile(const CaptureFile& capture) {
+  const FieldPath top;
+  const FieldPath views(&top, "views");
+  for (std::size_t i = 0; i < capture.views.size(); ++i) {
+    checkView(FieldPath(&views, i), capture.views[i]);
+  }
+  checkUnique(capture);
+  if (capture.proxy.empty()) return;
+  checkName(FieldPath(&top, "proxy"), capture.proxy);
+  if (!capture.views.front().depth.empty()) {
+    throw FieldPath(&top, "proxy").wrong("a mesh or depth pictures", "both");
+  }
+}
+
+std::filesystem::path pictureOf(const CaptureFileView& view, const LightFileEntry& light,
                                 int index) {
+  if (!view.files.empty()) return view.files.at(static_cast<std::size_t>(index));
+  const std::string& pattern = view.photographs;
   std::string name = pattern;
   replaceAll(name, "{index}", fmt::format("{:04}", index));
   replaceAll(name, "{light}", light.name);

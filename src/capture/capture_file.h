@@ -19,6 +19,8 @@ struct CaptureFileView {
   /// {light} stands for a light's name, {index} for its place in the list, of four digits at least.
   std::string photographs;
   std::string mask, depth;  ///< empty: none
+  /// One a light, in place of `photographs`, where pictures have names of their own. Not written.
+  std::vector<std::string> files = {};
 };
 
 struct CaptureFile {
@@ -26,13 +28,20 @@ struct CaptureFile {
   bool rendered = false;               ///< Capture::isRendered of what was written
   std::vector<LightFileEntry> lights;  ///< directions in the object frame
   std::vector<CaptureFileView> views;
+  std::string proxy = {};  ///< a mesh in place of depth pictures; empty: none
 };
 
 std::string textOf(const CaptureFile& capture);
 /// Untrusted input is safe. Throws Error naming `source` and the field.
 CaptureFile captureFileFromText(std::string_view json, const std::string& source);
 
-/// `pattern` for one light. Throws Error (Fault::Input) if that leaves the folder.
-std::filesystem::path pictureOf(const std::string& pattern, const LightFileEntry& light, int index);
+/// Throws Error naming the field, not the file, for what no capture is: names that leave the
+/// folder, views of one name, masks or depths of some views alone.
+void checkCaptureFile(const CaptureFile& capture);
+
+/// Of one view under one light, which is the `index`-th. Throws Error (Fault::Input) if that leaves
+/// the folder.
+std::filesystem::path pictureOf(const CaptureFileView& view, const LightFileEntry& light,
+                                int index);
 
 }  // namespace illum

@@ -6,10 +6,15 @@
 #include <algorithm>
 #include <list>
 #include <mutex>
+#include <optional>
 
+#include "capture/camera_list.h"
 #include "capture/capture_file.h"
+#include "capture/file_pool.h"
 #include "capture/lanes.h"
+#include "capture/photo_reader.h"
 #include "capture/photograph_list.h"
+#include "capture/proxy_mesh.h"
 #include "core/files.h"
 #include "core/memory.h"
 #include "illum/error.h"
@@ -22,6 +27,7 @@ namespace fs = std::filesystem;
 
 constexpr std::uint64_t kMaxCaptureFileBytes = std::uint64_t{1} << 30;
 constexpr int kMostOpenViews = 4;
+constexpr const char* kColmapProxyName = "proxy.obj";
 
 // A picture of one number a pixel: OpenEXR as it is, anything else as coverage out of 255.
 Picture readValues(const fs::path& file, Size expected) {
@@ -58,16 +64,46 @@ struct OpenView {
   Picture mask, depth;  // empty: none
 };
 
+CaptureFile readColmap(const fs::path& folder, const fs::path& images) {
+  ColmapText text;
+  const fs::path cameras = images.parent_path() / "cameras.txt";
+  text.images = readTextFile(images, kMaxCaptureFileBytes);
+  text.cameras = readTextFile(cameras, kMaxCaptureFileBytes);
+  text.imagesName = images.string();
+  text.camerasName = cameras.string();
+  std::error_code missing;
+  if (fs::is_directory(folder / "images", missing)) text.picturesFolder = "images";
+  CaptureFile file = captureFromColmap(text);
+  if (fs::is_regular_file(folder / kColmapProxyName, missing)) file.proxy = kColmapProxyName;
+  return file;
+}
+
+// capture.json, or what stands in its place.
+CaptureFile readCameraList(const fs::path& folder, const PhotographOptions& options) {
+  const fs::path found = cameraListIn(folder);
+  const fs::path list = found.empty() ? folder / kCaptureFileName : found;
+  if (list.filename() == "images.txt") return readColmap(folder, list);
+  const std::string text = readTextFile(list, kMaxCaptureFileBytes);
+  if (list.filename() == kCaptureFileName) return captureFileFromText(text, list.string());
+  return captureFromTransforms(text, list.string(), [&](const std::string& name) {
+    FilePool pool;
+    return readHeader(pool, pool.add(folder / name), options.memoryBytes).upright();
+  });
+}
+
 // Views are opened when they are read, a few at a time: a thousand views under a thousand lights
 // are more files than a system opens.
 class CaptureFolder final : public Capture {
  public:
   CaptureFolder(const fs::path& folder, const PhotographOptions& options, Progress& progress)
       : folder_(folder), options_(options) {
-    const fs::path name = folder / kCaptureFileName;
-    file_ = captureFileFromText(readTextFile(name, kMaxCaptureFileBytes), name.string());
-    for (const CaptureFileView& view : file_.views) views_.push_back(view.view);
     if (options_.memoryBytes == 0) options_.memoryBytes = machineMemoryBytes() / 4;
+    file_ = readCameraList(folder, options_);
+    if (!file_.proxy.empty()) {
+      const fs::path proxy = folder / file_.proxy;
+      proxy_ = proxyFromObj(readTextFile(proxy, kMaxCaptureFileBytes), proxy.string());
+    }
+    for (const CaptureFileView& view : file_.views) views_.push_back(view.view);
     mostOpen_ = std::min({kMostOpenViews, availableThreads() + 1, groups()});
     options_.lightFile.clear();
     options_.mask.clear();
@@ -81,7 +117,7 @@ class CaptureFolder final : public Capture {
   Transfer transfer() const override { return transfer_; }
   const std::vector<LightFileEntry>& lights() const override { return file_.lights; }
   bool hasMask() const override { return !file_.views.front().mask.empty() || hasAlpha_; }
-  bool hasDepth() const override { return !file_.views.front().depth.empty(); }
+  bool hasDepth() const override { return !file_.views.front().depth.empty() || proxy_; }
   bool isRendered() const override { return file_.rendered; }
   int bandRows() const override { return bandRows_; }
   std::uint64_t residentBytes() const override { return options_.memoryBytes; }
@@ -108,6 +144,7 @@ class CaptureFolder final : public Capture {
   fs::path folder_;
   PhotographOptions options_;
   CaptureFile file_;
+  std::optional<ProxyMesh> proxy_;
   std::vector<View> views_;
   int mostOpen_ = 1, bandRows_ = 1;
   Transfer transfer_ = Transfer::Linear;
@@ -124,11 +161,11 @@ std::shared_ptr<const OpenView> CaptureFolder::openView(int group, Progress& pro
   view->group = group;
   if (!entry.mask.empty()) view->mask = readValues(folder_ / entry.mask, size);
   if (!entry.depth.empty()) view->depth = readValues(folder_ / entry.depth, size);
+  if (proxy_) view->depth = depthOfProxy(*proxy_, entry.view.geometry);
 
   PhotographList list{folder_, {}, file_.lights};
   for (std::size_t i = 0; i < file_.lights.size(); ++i) {
-    list.files.push_back(folder_ /
-                         pictureOf(entry.photographs, file_.lights[i], static_cast<int>(i)));
+    list.files.push_back(folder_ / pictureOf(entry, file_.lights[i], static_cast<int>(i)));
   }
   const fs::path first = list.files.front();
   PhotographOptions options = options_;
@@ -139,10 +176,10 @@ std::shared_ptr<const OpenView> CaptureFolder::openView(int group, Progress& pro
   view->photographs = openPhotographList(std::move(list), options, progress);
   if (view->photographs->size() != size) {
     const Size found = view->photographs->size();
-    throw inputError(first,
-                     fmt::format("{}x{} pixels as view '{}' has in {}", size.width, size.height,
-                                 entry.view.name, kCaptureFileName),
-                     fmt::format("{}x{}", found.width, found.height));
+    throw inputError(
+        first,
+        fmt::format("{}x{} pixels as view '{}' has", size.width, size.height, entry.view.name),
+        fmt::format("{}x{}", found.width, found.height));
   }
   return view;
 }
@@ -178,16 +215,21 @@ std::string CaptureFolder::fingerprint() const {
   };
   for (const CaptureFileView& view : file_.views) {
     for (std::size_t i = 0; i < file_.lights.size(); ++i) {
-      add(pictureOf(view.photographs, file_.lights[i], static_cast<int>(i)));
+      add(pictureOf(view, file_.lights[i], static_cast<int>(i)));
     }
     if (!view.mask.empty()) add(view.mask);
     if (!view.depth.empty()) add(view.depth);
   }
+  if (!file_.proxy.empty()) add(file_.proxy);
   return fmt::format("capture folder {:08x} {}", crc32Of(std::as_bytes(std::span(text))),
                      text.size());
 }
 
 }  // namespace
+
+bool isCaptureFolder(const fs::path& folder) {
+  return !cameraListIn(folder).empty();
+}
 
 std::unique_ptr<Capture> openCaptureFolder(const fs::path& folder, const PhotographOptions& options,
                                            Progress& progress) {

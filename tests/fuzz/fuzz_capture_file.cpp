@@ -11,7 +11,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   try {
     capture =
         illum::captureFileFromText({reinterpret_cast<const char*>(data), size}, "capture.json");
-    for (const auto& view : capture.views) pictureOf(view.photographs, capture.lights.front(), 0);
+    for (const auto& view : capture.views) pictureOf(view, capture.lights.front(), 0);
   } catch (const illum::Error&) {
     return 0;
   }

@@ -107,6 +107,22 @@ void addLightFiles(const fs::path& folder) {
   corpus.add("1\na.jpg nan 0 inf\n");
 }
 
+void addCameraLists(const fs::path& folder) {
+  Corpus transforms(folder / "transforms_fuzz");
+  transforms.add(
+      R"({"fl_x":100,"cx":41,"cy":29,"w":80,"h":60,"k1":0,"frames":[{"file_path":"./a.jpg",)"
+      R"("transform_matrix":[[0,0,1,1],[1,0,0,2],[0,1,0,3],[0,0,0,1]],"pl_pos":[1,2,3]}]})");
+  transforms.add(R"({"camera_angle_x":1.2,"frames":[{"file_path":"train/r_0",)"
+                 R"("transform_matrix":[[1,0,0,0],[0,1,0,0],[0,0,1,4]]}]})");
+  Corpus colmap(folder / "colmap_fuzz");
+  colmap.add(
+      "# c\n1 PINHOLE 80 60 100 110 41 29\n2 SIMPLE_PINHOLE 8 6 9 4 3\n@\n"
+      "1 1 0 0 0 0.5 0 2 1 my photo.jpg\n1 2 3\n2 0 1 0 0 0 0 0 2 b.jpg\n\n");
+  colmap.add("1 SIMPLE_RADIAL 80 60 100 41 29 -0.01\n@\n1 1 0 0 0 0 0 0 1 a.jpg\n");
+  Corpus proxy(folder / "proxy_fuzz");
+  proxy.add("v -1 -1 -2\nv 1 -1 -2\nv 1 1 -2\nv -1 1 -2\nvn 0 0 1\nf 1//1 2//1 3//1 -1\n");
+}
+
 void addCaptureFiles(const fs::path& folder) {
   Corpus corpus(folder / "capture_file_fuzz");
   LightSlab slab;
@@ -138,6 +154,7 @@ int main(int argc, char** argv) {
     illum::addObjects(argv[1]);
     illum::addLightFiles(argv[1]);
     illum::addCaptureFiles(argv[1]);
+    illum::addCameraLists(argv[1]);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "%s\n", error.what());
     return 1;
