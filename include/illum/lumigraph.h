@@ -3,12 +3,16 @@
 // mathematics is in docs/math/view_synthesis.md.
 #pragma once
 
+#include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
 #include <vector>
 
 #include "illum/camera.h"
+#include "illum/light.h"
+#include "illum/object.h"
 #include "illum/picture.h"
 
 namespace illum {
@@ -24,6 +28,9 @@ class ViewSource {
   /// (4: RGBA in linear light; more: whatever is to be interpolated).
   virtual int channels() const = 0;
   virtual bool hasDepth() const = 0;
+  /// Whether pixels may show something although their depth is infinite: photographs whose
+  /// background no depth tells of. It is taken to lie where everything does without depth.
+  virtual bool hasBackdrop() const { return false; }
   virtual std::shared_ptr<const Picture> picture(int view) = 0;
   /// One channel, depthOf of camera.h, infinity where nothing is. Only where hasDepth().
   virtual std::shared_ptr<const Picture> depth(int view) = 0;
@@ -36,8 +43,9 @@ struct SourceView {
   Picture depth;    ///< as ViewSource::depth; empty: none
 };
 
-/// Views in memory as a source; `views` must outlive it. Throws Error (Fault::Input) where pictures
-/// do not have the size of their views, differ in channels, or only some have depth.
+/// Views in memory as a source; it has a backdrop if any picture covers a pixel without depth;
+/// `views` must outlive it. Throws Error (Fault::Input) where pictures do not have the size of
+/// their views, differ in channels, or only some have depth.
 std::unique_ptr<ViewSource> viewSource(std::span<const SourceView> views);
 
 /// {p : dot(normal, p - point) = 0}, object frame.
@@ -70,5 +78,36 @@ struct SynthesisedView {
 /// views are slabs' and others mixed, and (Fault::Usage) for options out of range.
 SynthesisedView synthesise(ViewSource& source, const ViewGeometry& target,
                            const SynthesisOptions& options = {});
+
+/// The same slab with another grid of view points over the same uv rectangle, finer or coarser
+/// (Wong et al. 1997, section 5): its views are synthesised from `source` one after another, row by
+/// row from the bottom, and given to `take`. Pictures may have any number of channels, so that what
+/// is resampled may be planes of reflectance as well as colours. Throws as synthesise.
+void resampleSlab(ViewSource& source, const LightSlab& slab, int uCount, int vCount,
+                  const SynthesisOptions& options, const std::function<void(SourceView&&)>& take);
+
+/// An object seen from anywhere under chosen lights. Views are relit when a camera needs them. Not
+/// thread safe; works in parallel by itself.
+class Lumigraph {
+ public:
+  /// `memoryBytes` bounds the tiles, pictures and depths that are kept; what one view takes is held
+  /// in any case.
+  explicit Lumigraph(Object object, std::uint64_t memoryBytes = std::uint64_t{1} << 30);
+  ~Lumigraph();
+
+  const Object& object() const;
+  /// In the object frame, for all that is seen from now on. At first there is no light.
+  void setLights(std::span<const DirectionalLight> lights);
+
+  /// RGBA, linear and premultiplied.
+  SynthesisedView see(const ViewGeometry& camera, const SynthesisOptions& options = {});
+
+  /// What stands in the middle of what the object's views look at.
+  Vector3 middle() const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
 
 }  // namespace illum

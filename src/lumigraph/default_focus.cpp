@@ -1,7 +1,10 @@
 #include "lumigraph/default_focus.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <deque>
+#include <vector>
 
 namespace illum {
 namespace {
@@ -40,6 +43,28 @@ std::optional<Plane> planeLookedAt(std::span<const ViewProjector* const> views) 
     return std::nullopt;
   }
   return Plane{solved(columns, right, determinant), (1 / length(mean)) * mean};
+}
+
+Vector3 middleOf(std::span<const View> views) {
+  std::deque<ViewProjector> projectors;
+  std::vector<const ViewProjector*> all;
+  Vector3 sum;
+  for (const View& view : views) {
+    if (std::holds_alternative<OrthographicView>(view.geometry)) return {};
+    all.push_back(&projectors.emplace_back(view.geometry));
+    const auto* slab = std::get_if<SlabView>(&view.geometry);
+    if (slab != nullptr) {
+      const PlaneRectangle& st = slab->slab.st;
+      sum = sum + slab->slab.objectFromSlab.point(
+                      {0.5 * (st.left + st.right), 0.5 * (st.bottom + st.top), 0});
+    } else {
+      sum = sum + projectors.back().eye();
+    }
+  }
+  const Vector3 mean = (1 / static_cast<double>(std::max<std::size_t>(1, views.size()))) * sum;
+  if (views.empty() || std::holds_alternative<SlabView>(views.front().geometry)) return mean;
+  if (const auto plane = planeLookedAt(all)) return plane->point;
+  return projectors.front().wraps() ? mean : mean + projectors.front().axis();
 }
 
 Vector3 onPlane(const Ray& ray, const std::optional<Plane>& plane, bool wholeLine) {

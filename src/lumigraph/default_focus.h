@@ -16,6 +16,10 @@ Plane windowOf(const LightSlab& slab);
 /// infinity, for parallel axes and for panoramas.
 std::optional<Plane> planeLookedAt(std::span<const ViewProjector* const> views);
 
+/// In the middle of slabs' windows; where free cameras' axes come nearest to each other; before a
+/// single camera; the view point of panoramas; 0 for a photograph.
+Vector3 middleOf(std::span<const View> views);
+
 /// Where the ray meets the plane (empty: far away), only ahead unless `wholeLine`. Not numbers
 /// where it does not.
 Vector3 onPlane(const Ray& ray, const std::optional<Plane>& plane, bool wholeLine);

@@ -21,12 +21,16 @@ constexpr std::size_t kMostDrawnViews = 12;
 
 // Views that are blended by one rule: those of one slab, or all free ones.
 struct Rig {
-  std::vector<int> views;  // of the source
-  std::unique_ptr<BlendRule> rule;
+  std::vector<int> views;           // of the source
+  std::unique_ptr<BlendRule> rule;  // of a slab; that of free views depends on where surfaces are
 };
 
 bool isKnown(Vector3 point) {
   return std::isfinite(point.x) && std::isfinite(point.y) && std::isfinite(point.z);
+}
+
+void addTo(Picture& sum, const Picture& more) {
+  for (std::size_t i = 0; i < sum.samples().size(); ++i) sum.samples()[i] += more.samples()[i];
 }
 
 class Synthesis {
@@ -45,28 +49,28 @@ class Synthesis {
   SynthesisedView run() {
     if (byDepth_) {
       findSurface();
-      for (Rig& rig : rigs_) {
-        if (!rig.rule) rig.rule = freeRule(rig);
-      }
-      for (const Rig& rig : rigs_) add(rig, Ring::Near, near_);
-      askMoreViews();
-    } else {
-      for (Rig& rig : rigs_) {
-        placeOnPlane(rig);
-        if (!rig.rule) rig.rule = freeRule(rig);
-        add(rig, Ring::Near, near_);
-      }
+      seeSurface(source_.hasBackdrop() ? Undefined::Unrelated : Undefined::Nothing);
+      SynthesisedView surface = resolved(true);
+      if (!source_.hasBackdrop()) return surface;
+      seeBackdrop(surface.depth);
+      const SynthesisedView backdrop = resolved(false);
+      addTo(surface.picture, backdrop.picture);
+      return surface;
     }
-    return resolved();
+    seePlane(Undefined::Nothing);
+    return resolved(false);
   }
 
  private:
   void collectRigs();
   void findSurface();
+  void seeSurface(Undefined undefined);
+  void seePlane(Undefined undefined);
+  void seeBackdrop(const Picture& surface);
   void placeOnPlane(const Rig& rig);
-  void add(const Rig& rig, Ring ring, Picture& sums);
-  void askMoreViews();
-  SynthesisedView resolved() const;
+  void add(const Rig& rig, Ring ring, Undefined undefined, Picture& sums);
+  void askMoreViews(Undefined undefined);
+  SynthesisedView resolved(bool withDepth) const;
 
   std::unique_ptr<BlendRule> freeRule(const Rig& rig) const {
     std::vector<const ViewProjector*> views;
@@ -94,7 +98,9 @@ class Synthesis {
   std::deque<ViewProjector> projectors_;  // of the source's views
   std::vector<Rig> rigs_;
   SurfacePoints points_;
-  Picture near_, wide_;  // sums; the second is empty where it was not needed
+  std::unique_ptr<BlendRule> freeRule_;  // of the views that belong to no slab, at the points
+  Picture near_, wide_;                  // sums; the second is empty where it was not needed
+  const Picture* hidden_ = nullptr;      // depth of the target where the plane is not seen
 };
 
 void Synthesis::collectRigs() {
@@ -135,7 +141,7 @@ bool Synthesis::isAsked(const Rig& rig, int local, Ring ring) const {
 
 void Synthesis::wantedWeights(const Rig& rig, int local, int y, Ring ring,
                               std::span<float> weights) const {
-  rig.rule->weights(local, y, ring, weights);
+  (rig.rule ? rig.rule : freeRule_)->weights(local, y, ring, weights);
   if (ring == Ring::Near) return;
   const auto points = points_.row(y);
   for (int x = 0; x < target_.size().width; ++x) {
@@ -194,6 +200,30 @@ void Synthesis::findSurface() {
   });
 }
 
+void Synthesis::seeSurface(Undefined undefined) {
+  for (const Rig& rig : rigs_) {
+    if (!rig.rule) freeRule_ = freeRule(rig);
+    add(rig, Ring::Near, undefined, near_);
+  }
+  askMoreViews(undefined);
+}
+
+void Synthesis::seePlane(Undefined undefined) {
+  for (const Rig& rig : rigs_) {
+    placeOnPlane(rig);
+    if (!rig.rule) freeRule_ = freeRule(rig);
+    add(rig, Ring::Near, undefined, near_);
+  }
+}
+
+// Rays that met no surface end on the plane.
+void Synthesis::seeBackdrop(const Picture& surface) {
+  hidden_ = &surface;
+  std::ranges::fill(near_.samples(), 0.0F);
+  wide_ = {};
+  seePlane(Undefined::Backdrop);
+}
+
 void Synthesis::placeOnPlane(const Rig& rig) {
   const SlabView* slab = slabView(rig.views.front());
   std::vector<const ViewProjector*> views;
@@ -207,12 +237,14 @@ void Synthesis::placeOnPlane(const Rig& rig) {
     const auto points = points_.row(y);
     for (int x = 0; x < target_.size().width; ++x) {
       points[static_cast<std::size_t>(x)] =
-          onPlane(target_.ray(x + 0.5, y + 0.5), plane, wholeLine);
+          hidden_ != nullptr && std::isfinite(hidden_->at(x, y, 0))
+              ? Vector3{kNothing, kNothing, kNothing}
+              : onPlane(target_.ray(x + 0.5, y + 0.5), plane, wholeLine);
     }
   });
 }
 
-void Synthesis::add(const Rig& rig, Ring ring, Picture& sums) {
+void Synthesis::add(const Rig& rig, Ring ring, Undefined undefined, Picture& sums) {
   for (int local = 0; local < static_cast<int>(rig.views.size()); ++local) {
     if (!isAsked(rig, local, ring)) continue;
     const int view = rig.views[static_cast<std::size_t>(local)];
@@ -221,7 +253,7 @@ void Synthesis::add(const Rig& rig, Ring ring, Picture& sums) {
     // What stands where the target stands sees what the target sees, whatever others say of depth.
     const bool asksDepth = byDepth_ && length(projector.eye() - target_.eye()) > 0;
     const auto depth = asksDepth ? source_.depth(view) : nullptr;
-    const ViewSamples samples(projector, *picture, depth.get());
+    const ViewSamples samples(projector, *picture, depth.get(), undefined);
     tbb::parallel_for(tbb::blocked_range<int>(0, target_.size().height), [&](const auto& rows) {
       std::vector<float> weights(static_cast<std::size_t>(target_.size().width));
       for (int y = rows.begin(); y < rows.end(); ++y) {
@@ -236,7 +268,7 @@ void Synthesis::add(const Rig& rig, Ring ring, Picture& sums) {
   }
 }
 
-void Synthesis::askMoreViews() {
+void Synthesis::askMoreViews(Undefined undefined) {
   bool wanted = false;
   for (int y = 0; y < target_.size().height && !wanted; ++y) {
     const auto points = points_.row(y);
@@ -247,13 +279,13 @@ void Synthesis::askMoreViews() {
   }
   if (!wanted) return;
   wide_ = Picture(near_.size(), near_.channels());
-  for (const Rig& rig : rigs_) add(rig, Ring::Wide, wide_);
+  for (const Rig& rig : rigs_) add(rig, Ring::Wide, undefined, wide_);
 }
 
-SynthesisedView Synthesis::resolved() const {
+SynthesisedView Synthesis::resolved(bool withDepth) const {
   const int channels = source_.channels();
   SynthesisedView result{Picture(target_.size(), channels), {}};
-  if (byDepth_) result.depth = Picture(target_.size(), 1);
+  if (withDepth) result.depth = Picture(target_.size(), 1);
   tbb::parallel_for(0, target_.size().height, [&](int y) {
     for (int x = 0; x < target_.size().width; ++x) {
       const float nearVisible = near_.at(x, y, channels + kVisibleSum);
@@ -266,7 +298,7 @@ SynthesisedView Synthesis::resolved() const {
         const float wide = byWide > 0 ? byWide * wide_.at(x, y, c) : 0;
         result.picture.at(x, y, c) = byNear * near_.at(x, y, c) + wide;
       }
-      if (!byDepth_) continue;
+      if (!withDepth) continue;
       Sighting seen;
       const bool shown = (byNear > 0 || byWide > 0) &&
                          target_.see(points_.row(y)[static_cast<std::size_t>(x)], seen);

@@ -191,6 +191,58 @@ TEST(Slabs, MeetWithoutASeam) {
   EXPECT_GT(least, 26);
 }
 
+TEST_F(Slab, IsResampledFinerAndCoarser) {
+  const LightSlab slab = testSlab(5, kPixels);
+  std::vector<SourceView> finer;
+  resampleSlab(*viewSource(views()), slab, 9, 5, {},
+               [&](SourceView&& view) { finer.push_back(std::move(view)); });
+  ASSERT_EQ(finer.size(), 45U);
+  for (const SourceView& view : finer) {
+    const auto& at = std::get<SlabView>(view.view.geometry);
+    if (at.v != 2) continue;
+    if (at.u % 2 == 0) {
+      expectNear(view.picture, views()[static_cast<std::size_t>(10 + at.u / 2)].picture, 1e-5F,
+                 "a view point of the first grid");
+    } else {
+      EXPECT_GT(decibels(view.picture, truth(view.view.geometry)), 29) << at.u;
+    }
+  }
+  // And back: every second column is what it was.
+  std::vector<SourceView> back;
+  resampleSlab(*viewSource(finer), std::get<SlabView>(finer.front().view.geometry).slab, 5, 5, {},
+               [&](SourceView&& view) { back.push_back(std::move(view)); });
+  for (std::size_t i = 0; i < back.size(); ++i) {
+    expectNear(back[i].picture, views()[i].picture, 2e-5F, "back again");
+  }
+}
+
+TEST_F(Slab, PlanesOfAnyNumberAreInterpolatedAlike) {
+  std::vector<SourceView> planes = views();
+  for (SourceView& view : planes) {
+    Picture wide(view.picture.size(), 7);
+    for (std::size_t i = 0; i < wide.size().pixels(); ++i) {
+      const float* rgba = &view.picture.samples()[4 * i];
+      float* out = &wide.samples()[7 * i];
+      // -2 r, 3 g, b, r + g, r, a
+      const float values[7] = {-2 * rgba[0], 3 * rgba[1], rgba[2], rgba[0] + rgba[1],
+                               rgba[0],      0,           rgba[3]};
+      std::copy_n(values, 7, out);
+    }
+    view.picture = std::move(wide);
+  }
+  const ViewGeometry camera = cameraAt({0.3, -0.2, 3}, {0, 0, 0}, 48, 1.0);
+  const Picture colours = synthesised(camera).picture;
+  const Picture found = synthesise(*viewSource(planes), camera).picture;
+  for (int y = 0; y < 48; ++y) {
+    for (int x = 0; x < 48; ++x) {
+      ASSERT_NEAR(found.at(x, y, 0), -2 * colours.at(x, y, 0), 1e-5);
+      ASSERT_NEAR(found.at(x, y, 3), colours.at(x, y, 0) + colours.at(x, y, 1), 1e-5);
+      ASSERT_EQ(found.at(x, y, 5), 0);
+      ASSERT_EQ(found.at(x, y, 6), colours.at(x, y, 3));
+    }
+  }
+}
+
 std::vector<SourceView> seenAround(const AnalyticScene& scene, int count) {
   std::vector<SourceView> views;
   for (int i = 0; i < count; ++i) {
@@ -221,6 +273,28 @@ TEST(FreeViews, AreNearTheTruthBetweenEachOther) {
   const double corrected = decibels(synthesise(*source, camera).picture, expected);
   EXPECT_GT(corrected, 28);
   EXPECT_GT(corrected, 4 + decibels(synthesise(*source, camera, plain()).picture, expected));
+}
+
+// Photographs are covered everywhere; their depth tells of the sphere and the wall alone.
+TEST(FreeViews, ABackdropIsSeenWhereNothingElseIs) {
+  const AnalyticScene scene;
+  std::vector<SourceView> views = seenAround(scene, 7);
+  const auto fill = [](Picture& picture) {
+    for (std::size_t i = 0; i < picture.samples().size(); i += 4) {
+      float* rgba = &picture.samples()[i];
+      rgba[1] += 0.5F * (1 - rgba[3]);
+      rgba[3] = 1;
+    }
+  };
+  for (SourceView& view : views) fill(view.picture);
+  const auto source = viewSource(views);
+  EXPECT_TRUE(source->hasBackdrop());
+  const ViewGeometry camera = cameraAt({-0.74, 0.2, 2.9}, {0, 0, -0.2}, kPixels, 2.2);
+  Picture expected = seen(scene, {"", camera}).picture;
+  fill(expected);
+  EXPECT_GT(decibels(synthesise(*source, camera).picture, expected), 27);
+  expectNear(synthesise(*source, views[3].view.geometry).picture, views[3].picture, 1e-4F,
+             "itself");
 }
 
 TEST(Panoramas, LookAround) {

@@ -36,8 +36,9 @@ struct ViewSamples::Taps {
   std::array<float, 4> weight;
 };
 
-ViewSamples::ViewSamples(const ViewProjector& view, const Picture& picture, const Picture* depth)
-    : view_(view), picture_(picture), depth_(depth) {}
+ViewSamples::ViewSamples(const ViewProjector& view, const Picture& picture, const Picture* depth,
+                         Undefined undefined)
+    : view_(view), picture_(picture), depth_(depth), undefined_(undefined) {}
 
 ViewSamples::Taps ViewSamples::tapsAt(const Sighting& seen) const {
   const Size size = view_.size();
@@ -55,14 +56,17 @@ ViewSamples::Taps ViewSamples::tapsAt(const Sighting& seen) const {
           {(1 - fx) * (1 - fy), fx * (1 - fy), (1 - fx) * fy, fx * fy}};
 }
 
-// Leaves the weights of those taps that show the point's surface; returns how much that is. Pixels
-// that show nothing count: nothing is on their rays, neither the point nor what would hide it.
+// Leaves the weights of those taps that tell of the point; returns how much that is.
 float ViewSamples::weighByDepth(Taps& taps, double range) const {
   const double pixelWidth = view_.pixelWidth(range);
   float sum = 0;
   for (std::size_t i = 0; i < 4; ++i) {
     const double found = view_.rangeOf(depth_->at(taps.x[i], taps.y[i], 0));
-    if (found < kNothing) taps.weight[i] *= agreement(range, found, pixelWidth);
+    if (found == kNothing) {
+      if (undefined_ == Undefined::Unrelated) taps.weight[i] = 0;
+    } else {
+      taps.weight[i] *= undefined_ == Undefined::Backdrop ? 0 : agreement(range, found, pixelWidth);
+    }
     sum += taps.weight[i];
   }
   return sum;

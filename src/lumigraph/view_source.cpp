@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "illum/error.h"
 #include "illum/lumigraph.h"
 
@@ -13,12 +15,14 @@ class ViewsInMemory final : public ViewSource {
     for (const SourceView& source : sources) {
       views_.push_back(source.view);
       check(source);
+      hasBackdrop_ = hasBackdrop_ || coversWithoutDepth(source);
     }
   }
 
   const std::vector<View>& views() const override { return views_; }
   int channels() const override { return sources_.front().picture.channels(); }
   bool hasDepth() const override { return !sources_.front().depth.empty(); }
+  bool hasBackdrop() const override { return hasBackdrop_; }
   std::shared_ptr<const Picture> picture(int view) override { return unowned(at(view).picture); }
   std::shared_ptr<const Picture> depth(int view) override { return unowned(at(view).depth); }
 
@@ -26,6 +30,16 @@ class ViewsInMemory final : public ViewSource {
   const SourceView& at(int view) const { return sources_[static_cast<std::size_t>(view)]; }
   static std::shared_ptr<const Picture> unowned(const Picture& picture) {
     return {std::shared_ptr<const Picture>(), &picture};
+  }
+
+  bool coversWithoutDepth(const SourceView& source) const {
+    const auto depth = source.depth.samples();
+    const auto stride = static_cast<std::size_t>(channels());
+    for (std::size_t i = 0; i < depth.size(); ++i) {
+      const float coverage = source.picture.samples()[i * stride + stride - 1];
+      if (!std::isfinite(depth[i]) && coverage > 0) return true;
+    }
+    return false;
   }
 
   void check(const SourceView& source) const {
@@ -52,6 +66,7 @@ class ViewsInMemory final : public ViewSource {
 
   std::span<const SourceView> sources_;
   std::vector<View> views_;
+  bool hasBackdrop_ = false;
 };
 
 }  // namespace

@@ -107,10 +107,8 @@ std::unique_ptr<Capture> InputOptions::open(std::uint64_t memoryBytes,
   PhotographOptions options = photographOptions();
   options.memoryBytes = memoryBytes;
   options.scratch = scratch;
-  std::error_code missing;
-  return std::filesystem::exists(std::filesystem::path(input) / "capture.json", missing)
-             ? openCaptureFolder(input, options, progress)
-             : openPhotographs(input, options, progress);
+  return isCaptureFolder(input) ? openCaptureFolder(input, options, progress)
+                                : openPhotographs(input, options, progress);
 }
 
 int listScenes() {
