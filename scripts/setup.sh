@@ -11,7 +11,8 @@ set -euo pipefail
 build_packages=(
   g++ cmake ninja-build ccache pkg-config
   libpng-dev libjpeg62-turbo-dev libavif-dev libopenexr-dev libimath-dev libzip-dev zlib1g-dev
-  libopenimageio-dev openimageio-tools liblcms2-dev libwebp-dev libhwy-dev libembree-dev libeigen3-dev
+  libopenimageio-dev openimageio-tools liblcms2-dev libwebp-dev libhwy-dev libembree-dev libassimp-dev
+  libeigen3-dev
   libopenblas-dev libtbb-dev libcli11-dev nlohmann-json3-dev libfmt-dev libgtest-dev libgmock-dev
   python3 python3-numpy python3-pil
 )

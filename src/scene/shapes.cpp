@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <numbers>
 #include <utility>
 
 namespace illum {
@@ -83,6 +85,25 @@ TriangleMesh surfaceMesh(const std::function<Vector3(double, double)>& point, in
       addTriangle(index(i, j), index(i + 1, j), index(i + 1, j + 1));
       addTriangle(index(i, j), index(i + 1, j + 1), index(i, j + 1));
     }
+  }
+  return mesh;
+}
+
+TriangleMesh sphereMesh(int steps) {
+  constexpr double kPi = std::numbers::pi;
+  // Seam and poles are the same point whatever sin and cos of multiples of pi are rounded to.
+  TriangleMesh mesh = surfaceMesh(
+      [](double u, double v) {
+        if (v == 0 || v == 1) return Vector3{0, 2 * v - 1, 0};
+        const double azimuth = 2 * kPi * ((u == 1 ? 0 : u) - 0.5), latitude = kPi * (v - 0.5);
+        return Vector3{std::sin(azimuth) * std::cos(latitude), std::sin(latitude),
+                       std::cos(azimuth) * std::cos(latitude)};
+      },
+      2 * steps, steps);
+  // Its normals are known without differences.
+  for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+    const Vector3 p = vectorOf(mesh.positions[i]);
+    mesh.normals[i] = floatsOf((1 / length(p)) * p);
   }
   return mesh;
 }

@@ -21,6 +21,10 @@ TriangleMesh rectangleMesh(double width, double height);
 TriangleMesh surfaceMesh(const std::function<Vector3(double u, double v)>& point, int uSteps,
                          int vSteps);
 
+/// The unit sphere with poles on y; `steps` from pole to pole, twice as many around. Texture
+/// coordinates grow to the right and upward, u = 0.5 in front.
+TriangleMesh sphereMesh(int steps);
+
 /// Moves all points.
 void transform(TriangleMesh& mesh, const RigidTransform& objectFromMesh);
 /// Scales all points about the origin by a positive factor.

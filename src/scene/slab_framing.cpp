@@ -154,6 +154,13 @@ LightSlab framedSlab(const SlabPlan& plan, const Scene& scene) {
   return slab;
 }
 
+Vector3 towardOf(const TurnPlan& plan, int i) {
+  const double azimuth = i * 2 * std::numbers::pi / plan.slabs;
+  const double elevation = plan.elevationRadians;
+  return {std::cos(elevation) * std::sin(azimuth), std::sin(elevation),
+          std::cos(elevation) * std::cos(azimuth)};
+}
+
 std::vector<LightSlab> framedTurn(const TurnPlan& plan, const Scene& scene) {
   const Bounds bounds = boundsOf(scene);
   const double step = 2 * std::numbers::pi / plan.slabs;
@@ -161,9 +168,7 @@ std::vector<LightSlab> framedTurn(const TurnPlan& plan, const Scene& scene) {
   for (int i = 0; i < plan.slabs; ++i) {
     SlabPlan one = plan.slab;
     one.objectFromSlab.reset();
-    const double azimuth = i * step, elevation = plan.elevationRadians;
-    one.toward = {std::cos(elevation) * std::sin(azimuth), std::sin(elevation),
-                  std::cos(elevation) * std::cos(azimuth)};
+    one.toward = towardOf(plan, i);
     if (plan.joined && plan.slabs > 2) one.uRadians = step;
     one.name = fmt::format("{}_{}", plan.slab.name, i);
     slabs.push_back(placedSlab(one, bounds));

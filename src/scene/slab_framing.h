@@ -11,6 +11,9 @@ namespace illum {
 /// or a view point stands inside the scene.
 LightSlab framedSlab(const SlabPlan& plan, const Scene& scene);
 
+/// Where the i-th slab of a turn stands, as a direction from the object.
+Vector3 towardOf(const TurnPlan& plan, int i);
+
 /// The slabs of a turn.
 std::vector<LightSlab> framedTurn(const TurnPlan& plan, const Scene& scene);
 

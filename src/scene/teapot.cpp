@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "scene/placement.h"
 #include "scene/shapes.h"
 
 namespace illum {
@@ -115,6 +116,14 @@ TriangleMesh teapotMesh(int steps) {
     append(mesh, surfaceMesh([&](double u, double v) { return patch.point(u, v); }, steps, steps));
   }
   return mesh;
+}
+
+TriangleMesh unitTeapotMesh() {
+  constexpr int kSteps = 24;
+  Scene scene;
+  scene.meshes = {teapotMesh(kSteps)};
+  normalise(scene);
+  return std::move(scene.meshes.front());
 }
 
 }  // namespace illum

@@ -24,4 +24,7 @@ std::vector<BezierPatch> teapotPatches();
 /// The teapot with `steps` x `steps` pairs of triangles to a patch and smooth normals.
 TriangleMesh teapotMesh(int steps);
 
+/// The same about the origin, from -1 to 1 in x, finely divided.
+TriangleMesh unitTeapotMesh();
+
 }  // namespace illum

@@ -1,0 +1,347 @@
+#include "scene/mesh_file.h"
+
+#include <assimp/postprocess.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <assimp/Exporter.hpp>
+#include <assimp/Importer.hpp>
+#include <cstdlib>
+
+#include "illum/error.h"
+#include "illum/picture_io.h"
+#include "scene/mesh_check.h"
+#include "scene/shapes.h"
+#include "scene/smooth_normals.h"
+#include "scene/teapot.h"
+#include "scene/test_files.h"
+
+namespace illum {
+namespace {
+
+using testing::Contains;
+using testing::HasSubstr;
+
+constexpr const char* kSquareObj = R"(mtllib square.mtl
+v 0 0 0
+v 2 0 0
+v 2 2 0
+v 0 2 0
+vt 0 0
+vt 1 0
+vt 1 1
+vt 0 1
+usemtl paint
+f 1/1 2/2 3/3 4/4
+)";
+constexpr const char* kSquareMtl = "newmtl paint\nKd 0.5 0.25 1\nmap_Kd dots.png\n";
+
+constexpr const char* kColouredPly = R"(ply
+format ascii 1.0
+element vertex 3
+property float x
+property float y
+property float z
+property uchar red
+property uchar green
+property uchar blue
+element face 1
+property list uchar int vertex_indices
+end_header
+0 0 0 255 0 0
+1 0 0 0 255 0
+0 1 0 188 188 188
+3 0 1 2
+)";
+
+/// A 2 x 2 picture: red and green above, blue and mid grey below.
+std::vector<std::byte> dotsPng() {
+  BytePicture dots({2, 2}, 3);
+  const std::array<std::array<int, 3>, 4> colours{
+      {{255, 0, 0}, {0, 255, 0}, {0, 0, 255}, {188, 188, 188}}};
+  for (std::size_t i = 0; i < 12; ++i)
+    dots.samples()[i] = static_cast<std::uint8_t>(colours[i / 3][i % 3]);
+  return encodePng(dots);
+}
+
+std::string errorOf(const std::filesystem::path& file) {
+  std::vector<std::string> remarks;
+  try {
+    readMeshFile(file, {}, remarks);
+  } catch (const Error& error) {
+    EXPECT_EQ(error.fault(), Fault::Input);
+    EXPECT_THAT(error.what(), HasSubstr(file.filename().string()));
+    EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos) << error.what();
+    return error.what();
+  }
+  return "no error";
+}
+
+Scene readWithoutRemarks(const std::filesystem::path& file) {
+  std::vector<std::string> remarks;
+  Scene scene = readMeshFile(file, {}, remarks);
+  EXPECT_THAT(remarks, testing::IsEmpty());
+  return scene;
+}
+
+TEST(MeshFile, ObjWithItsMaterialAndTexture) {
+  const ScratchFolder folder;
+  folder.write("square.mtl", kSquareMtl);
+  folder.write("dots.png", dotsPng());
+  const Scene scene = readWithoutRemarks(folder.write("square.obj", kSquareObj));
+  ASSERT_EQ(scene.meshes.size(), 1u);
+  const TriangleMesh& mesh = scene.meshes[0];
+  EXPECT_EQ(mesh.triangles.size(), 2u);
+  ASSERT_EQ(mesh.normals.size(), mesh.positions.size()) << "smooth where the file has none";
+  for (const auto& n : mesh.normals) EXPECT_NEAR(n[2], 1, 1e-6);
+  const Material& paint = scene.materials.at(static_cast<std::size_t>(mesh.material));
+  EXPECT_EQ(paint.name, "paint");
+  EXPECT_EQ(paint.baseColour, (LinearRgb{0.5F, 0.25F, 1}));
+  ASSERT_GE(paint.baseColourTexture, 0);
+  const Picture& texels =
+      scene.textures.at(static_cast<std::size_t>(paint.baseColourTexture)).texels;
+  EXPECT_EQ(texels.at(0, 0, 0), 1) << "row 0 is the top one";
+  EXPECT_NEAR(texels.at(1, 1, 0), 0.5, 0.005) << "sRGB 188 is half the light";
+  // Texture coordinate (0, 1) is the top left corner of the square.
+  for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+    EXPECT_NEAR(mesh.texcoords[i][0], mesh.positions[i][0] / 2, 1e-6);
+    EXPECT_NEAR(mesh.texcoords[i][1], mesh.positions[i][1] / 2, 1e-6);
+  }
+}
+
+TEST(MeshFile, TexturesThatAreNotThereAreRemarked) {
+  const ScratchFolder folder;
+  folder.write("square.mtl", kSquareMtl);
+  std::vector<std::string> remarks;
+  const Scene scene = readMeshFile(folder.write("square.obj", kSquareObj), {}, remarks);
+  EXPECT_THAT(remarks, Contains(HasSubstr("'dots.png', which is not there")));
+}
+
+TEST(MeshFile, TexturesThatAreDamagedAreErrors) {
+  const ScratchFolder folder;
+  folder.write("square.mtl", kSquareMtl);
+  std::vector<std::byte> png = dotsPng();
+  png.resize(png.size() / 2);
+  folder.write("dots.png", png);
+  std::vector<std::string> remarks;
+  EXPECT_THROW(readMeshFile(folder.write("square.obj", kSquareObj), {}, remarks), Error);
+  folder.write("dots.png", "this is text");
+  EXPECT_THROW(readMeshFile(folder.path("square.obj"), {}, remarks), Error);
+}
+
+TEST(MeshFile, PlyColoursAreDecoded) {
+  const ScratchFolder folder;
+  const Scene scene = readWithoutRemarks(folder.write("c.ply", kColouredPly));
+  ASSERT_EQ(scene.meshes.at(0).colours.size(), 3u);
+  EXPECT_NEAR(scene.meshes[0].colours[2].g, 0.5, 0.005);
+}
+
+TEST(MeshFile, BinaryPlyOfBothOrders) {
+  const ScratchFolder folder;
+  for (const bool big : {false, true}) {
+    std::string ply = std::string("ply\nformat binary_") + (big ? "big" : "little") +
+                      "_endian 1.0\nelement vertex 4\nproperty float x\nproperty float y\n"
+                      "property float z\nproperty float quality\nelement face 1\n"
+                      "property list uchar int vertex_indices\nend_header\n";
+    const auto append = [&](auto value) {
+      std::string bytes(reinterpret_cast<const char*>(&value), sizeof value);
+      if (big) std::ranges::reverse(bytes);
+      ply += bytes;
+    };
+    for (const float x :
+         {0.F, 0.F, 0.F, 9.F, 1.F, 0.F, 0.F, 9.F, 1.F, 2.F, 0.F, 9.F, 0.F, 2.F, 0.F, 9.F})
+      append(x);
+    append(std::uint8_t{4});
+    for (const std::int32_t index : {0, 1, 2, 3}) append(index);
+    std::vector<std::string> remarks;
+    const Scene scene = readMeshFile(folder.write("b.ply", ply), {}, remarks);
+    EXPECT_EQ(scene.meshes.at(0).triangles.size(), 2u);
+    EXPECT_EQ(boundsOf(scene).high, (Vector3{1, 2, 0}));
+    EXPECT_THAT(remarks, Contains(HasSubstr("'quality' is not used")));
+    for (std::size_t bytes = 0; bytes < ply.size(); ++bytes)
+      EXPECT_NE(errorOf(folder.write("b.ply", ply.substr(0, bytes))), "no error") << bytes;
+  }
+}
+
+TEST(MeshFile, GltfTransformsFlatNormalsAndMaterial) {
+  const ScratchFolder folder;
+  const std::string gltf = triangleGltf(
+      R"("materials": [{"name": "gold", "pbrMetallicRoughness": {"baseColorFactor": [1, 0.5, 0.25, 1],
+         "metallicFactor": 1, "roughnessFactor": 0.25}}])",
+      R"(, "material": 0)", R"(, "translation": [1, 2, 3], "scale": [2, 2, -2])");
+  for (const bool binary : {false, true}) {
+    const auto file = binary ? folder.write("t.glb", glbOf(gltf)) : folder.write("t.gltf", gltf);
+    const Scene scene = readWithoutRemarks(file);
+    ASSERT_EQ(scene.meshes.size(), 1u);
+    const TriangleMesh& mesh = scene.meshes[0];
+    EXPECT_TRUE(mesh.normals.empty()) << "glTF without normals is flat";
+    const Bounds bounds = boundsOf(scene);
+    EXPECT_EQ(bounds.low, (Vector3{1, 2, 3}));
+    EXPECT_EQ(bounds.high, (Vector3{3, 4, 3}));
+    // Mirrored: what was counter-clockwise from +z is now so from -z.
+    const auto p = [&](std::size_t i) { return vectorOf(mesh.positions[mesh.triangles[0][i]]); };
+    EXPECT_LT(cross(p(1) - p(0), p(2) - p(0)).z, 0);
+    const Material& gold = scene.materials.at(static_cast<std::size_t>(mesh.material));
+    EXPECT_EQ(gold.baseColour, (LinearRgb{1, 0.5F, 0.25F}));
+    EXPECT_EQ(gold.metallic, 1);
+    EXPECT_EQ(gold.roughness, 0.25F);
+  }
+}
+
+TEST(MeshFile, GltfFeaturesThatAreNotTakenOverAreNamed) {
+  const ScratchFolder folder;
+  std::vector<std::string> remarks;
+  const auto file = folder.write(
+      "t.gltf", triangleGltf(R"("cameras": [{"type": "perspective", "perspective": {"yfov": 1,
+                "znear": 0.1}}], "extensionsUsed": ["KHR_materials_clearcoat"],
+                "materials": [{"name": "lamp", "emissiveFactor": [1, 1, 1], "alphaMode": "BLEND"}])",
+                             R"(, "material": 0)"));
+  readMeshFile(file, {}, remarks);
+  EXPECT_THAT(remarks, Contains(HasSubstr("cameras of mesh files")));
+  EXPECT_THAT(remarks, Contains(HasSubstr("\"KHR_materials_clearcoat\" is not supported")));
+  EXPECT_THAT(remarks, Contains(HasSubstr("'lamp' emits light")));
+  EXPECT_THAT(remarks, Contains(HasSubstr("'lamp' blends")));
+}
+
+TEST(MeshFile, RequiredExtensionsAndOtherVersionsAreRefused) {
+  const ScratchFolder folder;
+  EXPECT_THAT(errorOf(folder.write("d.gltf", triangleGltf(R"("extensionsRequired":
+                                                  ["KHR_draco_mesh_compression"])"))),
+              HasSubstr("KHR_draco_mesh_compression"));
+  EXPECT_THAT(errorOf(folder.write("1.gltf", R"({"asset": {"version": "1.0"}})")),
+              HasSubstr("expected glTF 2"));
+}
+
+TEST(MeshFile, FbxFromAnotherProgramsHand) {
+  const ScratchFolder folder;
+  folder.write("square.mtl", "newmtl paint\nKd 0.5 0.25 1\n");
+  Assimp::Importer importer;
+  const aiScene* obj = importer.ReadFile(folder.write("square.obj", kSquareObj).string(), 0);
+  ASSERT_NE(obj, nullptr);
+  Assimp::Exporter exporter;
+  ASSERT_EQ(exporter.Export(obj, "fbxa", folder.path("square.fbx").string()), aiReturn_SUCCESS);
+  std::vector<std::string> remarks;
+  const Scene scene = readMeshFile(folder.path("square.fbx"), {}, remarks);
+  ASSERT_EQ(scene.meshes.size(), 1u);
+  EXPECT_EQ(scene.meshes[0].triangles.size(), 2u);
+  EXPECT_NEAR(scene.materials.at(static_cast<std::size_t>(scene.meshes[0].material)).baseColour.g,
+              0.25, 1e-5);
+}
+
+TEST(MeshFile, BadFilesAreRefusedInOneSentence) {
+  const ScratchFolder folder;
+  errorOf(folder.path("missing.obj"));
+  EXPECT_NE(errorOf(folder.write("empty.ply", "")), "no error");
+  EXPECT_NE(errorOf(folder.write("points.obj", "v 0 0 0\nv 1 0 0\n")), "no error");
+  EXPECT_NE(errorOf(folder.write("text.glb", "hello")), "no error");
+  EXPECT_NE(errorOf(folder.write("text.fbx", "hello")), "no error");
+  EXPECT_THAT(errorOf(folder.write("a.stl", "solid")), HasSubstr("another ending"));
+  EXPECT_THAT(errorOf(folder.write("nan.obj", "v nan 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")),
+              HasSubstr("nan"));
+}
+
+TEST(MeshFile, IndicesOutOfRangeAreRefused) {
+  const ScratchFolder folder;
+  std::string gltf = triangleGltf();
+  gltf.replace(gltf.find("AAABAAIA"), 8, "AAABAP9/");
+  EXPECT_NE(errorOf(folder.write("i.gltf", gltf)), "no error");
+  std::string ply = kColouredPly;
+  ply.replace(ply.find("3 0 1 2"), 7, "3 0 1 7");
+  EXPECT_NE(errorOf(folder.write("i.ply", ply)), "no error");
+}
+
+TEST(MeshFile, EveryTruncationIsReadOrRefused) {
+  const ScratchFolder folder;
+  const std::vector<std::byte> glb = glbOf(triangleGltf());
+  const std::string ply = kColouredPly;
+  std::vector<std::string> remarks;
+  const auto attempt = [&](const std::filesystem::path& file) {
+    try {
+      readMeshFile(file, {}, remarks);
+    } catch (const Error& error) {
+      EXPECT_EQ(error.fault(), Fault::Input) << error.what();
+    }
+  };
+  for (std::size_t bytes = 0; bytes < glb.size(); bytes += 7)
+    attempt(folder.write("t.glb", std::span(glb).first(bytes)));
+  for (std::size_t bytes = 0; bytes < ply.size(); bytes += 3)
+    attempt(folder.write("t.ply", ply.substr(0, bytes)));
+}
+
+TEST(MeshFile, SharedTeapotIsOurs) {
+  const char* shared = std::getenv("ILLUM_SHARED");
+  const std::filesystem::path file =
+      std::filesystem::path(shared != nullptr ? shared : ILLUM_SOURCE_DIR "/../shared") /
+      "data/geometry/teapot.obj";
+  if (!std::filesystem::exists(file)) GTEST_SKIP() << file << " is not there";
+  Scene theirs = readWithoutRemarks(file), ours;
+  ours.meshes = {teapotMesh(16)};
+  const Bounds a = boundsOf(theirs), b = boundsOf(ours);
+  EXPECT_NEAR((a.high.x - a.low.x) / (b.high.x - b.low.x), 1, 0.01);
+  EXPECT_NEAR((a.high.y - a.low.y) / (b.high.y - b.low.y), 1, 0.01);
+  EXPECT_NEAR((a.high.z - a.low.z) / (b.high.z - b.low.z), 1, 0.01);
+  EXPECT_NEAR(a.high.x, b.high.x, 0.02);
+}
+
+TEST(MeshCheck, DegenerateTrianglesAreDroppedWithARemark) {
+  TriangleMesh mesh = rectangleMesh(1, 1);
+  mesh.name = "m";
+  mesh.triangles.push_back({0, 0, 1});
+  mesh.positions.push_back({0.5F, -0.5F, 0});  // on the edge from 0 to 1 when it is 1 long
+  mesh.normals.push_back({0, 0, 1});
+  mesh.texcoords.push_back({1, 0});
+  mesh.triangles.push_back({0, 1, 4});
+  std::vector<std::string> remarks;
+  checkMesh(mesh, "f.obj", remarks);
+  EXPECT_EQ(mesh.triangles.size(), 2u);
+  EXPECT_THAT(remarks, Contains("f.obj: mesh 'm': 2 of 4 triangles have no area and are left out"));
+}
+
+TEST(MeshCheck, BadNormalsAndTexcoordsAreDroppedBadPointsRefused) {
+  std::vector<std::string> remarks;
+  TriangleMesh mesh = rectangleMesh(1, 1);
+  mesh.normals[1] = {0, 0, 0};
+  mesh.texcoords[2][0] = NAN;
+  checkMesh(mesh, "f", remarks);
+  EXPECT_TRUE(mesh.normals.empty());
+  EXPECT_TRUE(mesh.texcoords.empty());
+  EXPECT_EQ(remarks.size(), 2u);
+  mesh.positions[0][1] = INFINITY;
+  EXPECT_THROW(checkMesh(mesh, "f", remarks), Error);
+  TriangleMesh wrong = rectangleMesh(1, 1);
+  wrong.triangles[1][2] = 4;
+  EXPECT_THROW(checkMesh(wrong, "f", remarks), Error);
+  TriangleMesh few = rectangleMesh(1, 1);
+  few.colours.resize(3);
+  EXPECT_THROW(checkMesh(few, "f", remarks), Error);
+}
+
+TEST(SmoothNormals, KeepSharpEdgesAndRoundFlatOnes) {
+  TriangleMesh box = boxMesh({1, 1, 1});
+  box.normals.clear();
+  TriangleMesh round = box;
+  addSmoothNormals(box, 1.0);
+  EXPECT_EQ(box.positions.size(), 24u) << "right angles stay sharp";
+  for (const auto& n : box.normals)
+    EXPECT_NEAR(std::abs(n[0]) + std::abs(n[1]) + std::abs(n[2]), 1, 1e-6);
+  addSmoothNormals(round, 2.0);
+  for (std::size_t i = 0; i < round.normals.size(); ++i) {
+    const Vector3 p = vectorOf(round.positions[i]), n = vectorOf(round.normals[i]);
+    EXPECT_NEAR(dot(p, n) / length(p), 1, 1e-6) << "corners point away from the middle";
+  }
+}
+
+TEST(SmoothNormals, OfASphereAreItsPositions) {
+  TriangleMesh sphere = sphereMesh(32);
+  sphere.normals.clear();
+  std::vector<std::string> remarks;
+  checkMesh(sphere, "sphere", remarks);
+  addSmoothNormals(sphere, 1.0);
+  for (const auto& t : sphere.triangles) {
+    for (const std::uint32_t v : t)
+      EXPECT_LT(length(vectorOf(sphere.positions[v]) - vectorOf(sphere.normals[v])), 0.01);
+  }
+}
+
+}  // namespace
+}  // namespace illum

@@ -1,0 +1,115 @@
+#include "scene/texture_file.h"
+
+#include <OpenImageIO/filesystem.h>
+#include <OpenImageIO/imageio.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cmath>
+#include <memory>
+#include <string_view>
+#include <vector>
+
+#include "core/files.h"
+#include "illum/colour.h"
+#include "illum/error.h"
+
+namespace illum {
+namespace {
+
+constexpr std::uint64_t kMaxFileBytes = std::uint64_t{1} << 30;
+constexpr std::uint64_t kMaxTexels = std::uint64_t{16384} * 16384;
+
+/// A format by its first bytes; OpenImageIO's name of its reader.
+struct Signature {
+  std::string_view bytes;
+  const char* reader;
+};
+using namespace std::string_view_literals;
+constexpr std::array kSignatures{
+    Signature{"\x89PNG"sv, "png"}, Signature{"\xff\xd8\xff"sv, "jpeg"},
+    Signature{"RIFF"sv, "webp"},   Signature{"II*\0"sv, "tiff"},
+    Signature{"MM\0*"sv, "tiff"},  Signature{"BM"sv, "bmp"},
+    Signature{"GIF8"sv, "gif"},    Signature{"\x76\x2f\x31\x01"sv, "openexr"},
+    Signature{"#?"sv, "hdr"},
+};
+
+/// TGA has no signature: it is what nothing else is and is called so.
+const char* readerOf(std::span<const std::byte> bytes, const std::string& name) {
+  const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  for (const Signature& signature : kSignatures)
+    if (text.starts_with(signature.bytes)) return signature.reader;
+  std::string ending = std::filesystem::path(name).extension().string();
+  std::ranges::transform(ending, ending.begin(), [](unsigned char c) { return std::tolower(c); });
+  return ending == ".tga" ? "targa" : nullptr;
+}
+
+Error damaged(const std::string& name, std::string found) {
+  std::ranges::replace_if(
+      found, [](unsigned char c) { return std::iscntrl(c) != 0; }, ' ');
+  return {Fault::Input, fmt::format("{}: expected a picture, found {}", name,
+                                    found.empty() ? "something that cannot be decoded" : found)};
+}
+
+void checkSpec(const OIIO::ImageSpec& spec, const std::string& name) {
+  const bool sane = spec.width > 0 && spec.height > 0 && spec.depth <= 1 && spec.nchannels > 0;
+  if (!sane ||
+      static_cast<std::uint64_t>(spec.width) * static_cast<std::uint64_t>(spec.height) > kMaxTexels)
+    throw Error(Fault::Input,
+                fmt::format("{}: expected a picture of at most 16384 x 16384 texels, found {} x {}",
+                            name, spec.width, spec.height));
+}
+
+/// Linear texels of 1, 3 or 4 channels.
+Picture texelsOf(const OIIO::ImageSpec& spec, const std::vector<float>& samples, TextureUse use) {
+  const int stored = spec.nchannels;
+  const bool grey = stored < 3, alpha = stored == 2 || stored >= 4;
+  const int channels = alpha ? 4 : grey ? 1 : 3;
+  const bool decode = use == TextureUse::Colour && !spec.format.is_floating_point();
+  Picture texels({spec.width, spec.height}, channels);
+  for (std::size_t p = 0; p < texels.size().pixels(); ++p) {
+    const float* from = samples.data() + p * static_cast<std::size_t>(stored);
+    float* to = texels.samples().data() + p * static_cast<std::size_t>(channels);
+    for (int c = 0; c < std::min(channels, 3); ++c) {
+      const float value = from[grey ? 0 : c];
+      to[c] = decode ? linearFromDisplay(value) : value;
+    }
+    if (alpha) to[3] = from[stored == 2 ? 1 : 3];
+  }
+  return texels;
+}
+
+}  // namespace
+
+Texture textureFromBytes(std::span<const std::byte> bytes, const std::string& name,
+                         TextureUse use) {
+  const char* reader = readerOf(bytes, name);
+  if (reader == nullptr) throw damaged(name, "another kind of file");
+  const std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::create(reader);
+  if (!input) throw damaged(name, OIIO::geterror());
+  // The proxy only reads, whatever its interface says.
+  OIIO::Filesystem::IOMemReader proxy(const_cast<std::byte*>(bytes.data()), bytes.size());
+  if (!input->supports("ioproxy") || !input->set_ioproxy(&proxy))
+    throw damaged(name, fmt::format("a {} picture, which this machine's OpenImageIO reads only "
+                                    "from files",
+                                    reader));
+  OIIO::ImageSpec spec, hints;
+  hints.attribute("oiio:UnassociatedAlpha", 1);
+  if (!input->open(name, spec, hints)) throw damaged(name, input->geterror());
+  checkSpec(spec, name);
+  std::vector<float> samples(spec.image_pixels() * static_cast<std::size_t>(spec.nchannels));
+  if (!input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, samples.data()) ||
+      input->has_error())
+    throw damaged(name, input->geterror());
+  if (!std::ranges::all_of(samples, [](float x) { return std::isfinite(x); }))
+    throw damaged(name, "texels that are not finite");
+  return {name, texelsOf(spec, samples, use)};
+}
+
+Texture readTexture(const std::filesystem::path& file, TextureUse use) {
+  return textureFromBytes(readFile(file, kMaxFileBytes), file.string(), use);
+}
+
+}  // namespace illum
