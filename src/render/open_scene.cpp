@@ -3,6 +3,7 @@
 #include "illum/scene.h"
 #include "render/rendered_capture.h"
 #include "scene/builtin.h"
+#include "scene/scene_file.h"
 
 namespace illum {
 namespace {
@@ -33,13 +34,18 @@ std::vector<SceneName> builtinSceneNames() {
 }
 
 bool isSceneName(const std::filesystem::path& scene) {
-  return scene.native().starts_with(kBuiltin);
+  return scene.native().starts_with(kBuiltin) || isSceneFile(scene);
 }
 
 std::unique_ptr<Capture> openScene(const std::filesystem::path& scene, const SceneOptions& options,
-                                   [[maybe_unused]] Progress& progress) {
-  const std::string name = scene.native();
-  return renderedCapture(builtinScene(name.substr(kBuiltin.size()), overridesOf(options)));
+                                   Progress& progress) {
+  const std::string& name = scene.native();
+  if (name.starts_with(kBuiltin)) {
+    return renderedCapture(builtinScene(name.substr(kBuiltin.size()), overridesOf(options)));
+  }
+  SceneFileOptions fileOptions;
+  fileOptions.overrides = overridesOf(options);
+  return renderedCapture(readScene(scene, fileOptions, progress));
 }
 
 }  // namespace illum

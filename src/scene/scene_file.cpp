@@ -183,7 +183,7 @@ class SceneReader {
 };
 
 SceneCapture captureOf(const fs::path& file, const SceneDescription& description,
-                       const SceneOptions& options, Progress& progress) {
+                       const SceneFileOptions& options, Progress& progress) {
   CapturePlan plan = planOf(description);
   if (description.lights.file) {
     LightFile lights = readLightFile(file.parent_path() / *description.lights.file);
@@ -208,7 +208,7 @@ bool isSceneFile(const fs::path& file) {
   return readTextFile(file, kMaxSceneTextBytes).find("\"illumScene\"") != std::string::npos;
 }
 
-SceneCapture readScene(const fs::path& file, const SceneOptions& options, Progress& progress) {
+SceneCapture readScene(const fs::path& file, const SceneFileOptions& options, Progress& progress) {
   SceneDescription description;
   if (isMeshFile(file)) {
     MeshRecord& mesh = description.meshes.emplace_back();

@@ -9,7 +9,7 @@
 
 namespace illum {
 
-struct SceneOptions {
+struct SceneFileOptions {
   CaptureOverrides overrides;
   /// More than that is refused, with the cost in words. 1e14: months of a machine with two cores.
   double maxShadowRays = 1e14;
@@ -23,7 +23,7 @@ bool isSceneFile(const std::filesystem::path& file);
 /// is moved about the origin, scaled to reach from -1 to 1 and given a slab of 5 x 5 view points
 /// in front and 64 lights. Remarks name what is left out and what was repaired. Throws Error naming
 /// the file. Untrusted input is safe as far as assimp and OpenImageIO are.
-SceneCapture readScene(const std::filesystem::path& file, const SceneOptions& options,
+SceneCapture readScene(const std::filesystem::path& file, const SceneFileOptions& options,
                        Progress& progress);
 
 }  // namespace illum

@@ -14,7 +14,7 @@ namespace {
 
 using testing::HasSubstr;
 
-std::string errorOf(const std::filesystem::path& file, const SceneOptions& options = {}) {
+std::string errorOf(const std::filesystem::path& file, const SceneFileOptions& options = {}) {
   RememberedRemarks remarks;
   try {
     readScene(file, options, remarks);
@@ -115,7 +115,7 @@ TEST(SceneFile, AbsurdGridsAreRefusedWithTheirCost) {
                                   "2 path vertices = 6.18e+17 shadow rays"));
   EXPECT_THAT(sentence, HasSubstr("years on two cores"));
   EXPECT_THAT(sentence, HasSubstr("PiB of photographs"));
-  SceneOptions small;
+  SceneFileOptions small;
   small.overrides.uCount = 1, small.overrides.vCount = 1, small.overrides.longerSide = 8;
   EXPECT_EQ(errorOf(file, small), "no error") << "the command line has the last word";
   EXPECT_THAT(errorOf(folder.write("l.json", sceneWith(R"("meshes": [{"shape": "box"}],
