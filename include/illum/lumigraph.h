@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "illum/camera.h"
-#include "illum/light.h"
+#include "illum/lighting.h"
 #include "illum/object.h"
 #include "illum/picture.h"
 
@@ -96,7 +96,9 @@ class Lumigraph {
   ~Lumigraph();
 
   const Object& object() const;
-  /// In the object frame, for all that is seen from now on. At first there is no light.
+  /// In the object frame, for all that is seen from now on. At first there is no light. Throws
+  /// Error (Fault::Input) for lights near an object of whose surface nothing is known.
+  void setLights(const Illumination& lights);
   void setLights(std::span<const DirectionalLight> lights);
 
   /// RGBA, linear and premultiplied.

@@ -54,6 +54,9 @@ class Relighter {
   /// at infinity together, environments among them, then cost what one costs.
   PreparedLights prepare(const Illumination& lights, int group = 0,
                          const PrepareOptions& options = {}) const;
+  /// The same lights for another group: at no cost where its frame is turned as that of `lights`'s
+  /// group, as in a slab, whatever shines. Heights are left behind.
+  PreparedLights prepareAlso(const PreparedLights& lights, int group) const;
   /// As above, of the group that the lights were prepared for.
   Picture relight(const PreparedLights& lights, int level = 0) const;
   Picture relightRegion(const PreparedLights& lights, const Rectangle& region, int level = 0) const;

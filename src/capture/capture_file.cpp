@@ -112,7 +112,7 @@ void checkUnique(const CaptureFile& capture) {
 }
 
 CaptureFile readCapture(std::string_view text) {
-  const Json root = Json::parse(text);
+  const Json root = jsonFromText(text);
   const FieldPath top;
   checkVersion(root, top);
   FileRecord file;
@@ -169,9 +169,6 @@ CaptureFile captureFileFromText(std::string_view json, const std::string& source
     return readCapture(json);
   } catch (const Error& error) {
     throw Error(error.fault(), fmt::format("{}: {}", source, error.what()));
-  } catch (const nlohmann::json::parse_error& error) {
-    throw Error(Fault::Input,
-                fmt::format("{}: expected JSON, found an error at byte {}", source, error.byte));
   }
 }
 

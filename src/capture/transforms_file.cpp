@@ -274,14 +274,11 @@ CaptureFile captureUnderLights(const std::vector<Frame>& frames) {
 CaptureFile captureFromTransforms(std::string_view json, const std::string& source,
                                   const SizeOfPicture& sizeOfPicture) {
   try {
-    const std::vector<Frame> frames = framesOf(Json::parse(json), sizeOfPicture);
+    const std::vector<Frame> frames = framesOf(fields::jsonFromText(json), sizeOfPicture);
     CaptureFile capture =
         frames.front().light ? captureUnderLights(frames) : captureUnderOneLight(frames);
     checkCaptureFile(capture);
     return capture;
-  } catch (const nlohmann::json::parse_error& error) {
-    throw Error(Fault::Input,
-                fmt::format("{}: expected JSON, found an error at byte {}", source, error.byte));
   } catch (const Error& error) {
     throw Error(error.fault(), fmt::format("{}: {}", source, error.what()));
   }

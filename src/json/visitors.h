@@ -21,6 +21,17 @@ namespace illum::fields {
 using Json = nlohmann::json;
 using OrderedJson = nlohmann::ordered_json;
 
+/// Throws Error that names no file for what is no JSON.
+inline Json jsonFromText(std::string_view text) {
+  try {
+    return Json::parse(text);
+  } catch (const Json::parse_error& error) {
+    throw Error(Fault::Input, fmt::format("expected JSON, found an error at byte {}", error.byte));
+  } catch (const Json::out_of_range&) {
+    throw Error(Fault::Input, "expected JSON with numbers below 1e308, found a larger one");
+  }
+}
+
 /// "groups[2].basis"; how errors name a field.
 class FieldPath {
  public:

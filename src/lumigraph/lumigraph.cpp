@@ -25,11 +25,17 @@ const Object& Lumigraph::object() const {
   return state_->object;
 }
 
+void Lumigraph::setLights(const Illumination& lights) {
+  // Views share what a slab's lights come down to; what was prepared last is of the slab at hand.
+  state_->views.setRelit([relighter = &state_->relighter,
+                          latest = state_->relighter.prepare(lights)](int group) mutable {
+    latest = relighter->prepareAlso(latest, group);
+    return relighter->relight(latest);
+  });
+}
+
 void Lumigraph::setLights(std::span<const DirectionalLight> lights) {
-  state_->views.setRelit(
-      [relighter = &state_->relighter, own = std::vector(lights.begin(), lights.end())](int group) {
-        return relighter->relight(own, group);
-      });
+  setLights(Illumination{{lights.begin(), lights.end()}, {}, {}});
 }
 
 SynthesisedView Lumigraph::see(const ViewGeometry& camera, const SynthesisOptions& options) {

@@ -1,6 +1,8 @@
 // What Relighter::prepare makes of lights.
 #pragma once
 
+#include <memory>
+
 #include "illum/relight.h"
 #include "relight/near_lights.h"
 #include "relight/passes.h"
@@ -11,6 +13,7 @@ namespace illum {
 struct PreparedLights::State {
   Object object;  // keeps the basis that `nearby` refers to
   int group = 0;
+  std::shared_ptr<const Illumination> lights;  // as they were given, in the object frame
   Passes distant;
   NearLights nearby;
   Surface surface;

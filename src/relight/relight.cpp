@@ -72,6 +72,17 @@ Illumination inGroup(const View& view, const Illumination& lights) {
   return turned;
 }
 
+// Whether lights come down to the same numbers for both groups. A basis belongs to groups that are
+// turned alike, but lights nearby and environments also depend on where the frame is.
+bool areAlike(const Object& object, int one, int other) {
+  const auto& groups = object.manifest().groups;
+  const auto entry = [&](int g) -> const GroupEntry& {
+    return groups[static_cast<std::size_t>(g)];
+  };
+  return entry(one).basis == entry(other).basis &&
+         objectFromGroup(entry(one).view.geometry) == objectFromGroup(entry(other).view.geometry);
+}
+
 }  // namespace
 
 struct Relighter::State {
@@ -94,14 +105,27 @@ PreparedLights Relighter::prepare(const Illumination& lights, int group,
   const Illumination turned = inGroup(object.view(group), lights);
   const CodingEntry& coding = object.manifest().coding(group);
   const Response response = object.manifest().response;
-  auto state =
-      std::make_shared<PreparedLights::State>(PreparedLights::State{object, group, {}, {}, {}});
+  auto state = std::make_shared<PreparedLights::State>();
+  state->object = object;
+  state->group = group;
+  state->lights = std::make_shared<const Illumination>(lights);
   state->distant =
       Passes(object.basis(group), coding, response, turned.directional, turned.environments);
   if (!turned.nearby.empty()) {
     state->nearby = NearLights(object.basis(group), coding, response, turned.nearby);
     state->surface = Surface(object, group, options.heights);
   }
+  return PreparedLights(std::move(state));
+}
+
+PreparedLights Relighter::prepareAlso(const PreparedLights& lights, int group) const {
+  const Object& object = state_->cache.object();
+  checkRequest(object, group, 0);
+  if (!areAlike(object, lights.group(), group)) return prepare(*lights.state_->lights, group);
+  auto state = std::make_shared<PreparedLights::State>(*lights.state_);
+  state->group = group;
+  // What the lights come down to is the same, but not where they shine on.
+  if (!state->lights->nearby.empty()) state->surface = Surface(object, group, nullptr);
   return PreparedLights(std::move(state));
 }
 

@@ -1,61 +1,10 @@
 #include "light_options.h"
 
-#include <fmt/format.h>
-
-#include <cmath>
-#include <optional>
-
 #include "illum/error.h"
+#include "numbers.h"
 
 namespace illum::cli {
 namespace {
-
-/// The numbers of "1,2,3"; empty if there is anything else.
-std::vector<double> numbersFrom(const std::string& text) {
-  std::vector<double> numbers;
-  for (const auto& part : CLI::detail::split(text, ',')) {
-    double number = 0;
-    if (!CLI::detail::lexical_cast(part, number) || !std::isfinite(number)) return {};
-    numbers.push_back(number);
-  }
-  return numbers;
-}
-
-Error wrongOption(const char* option, const char* form, const std::string& text) {
-  return {Fault::Usage, fmt::format("{}: expected {}, found \"{}\"", option, form, text)};
-}
-
-/// An option's numbers, of which the last three may be missing or are a colour.
-class Numbers {
- public:
-  Numbers(const char* option, const char* form, const std::string& text)
-      : option_(option), form_(form), text_(text), values_(numbersFrom(text)) {}
-
-  std::size_t count() const { return values_.size(); }
-  double operator[](std::size_t i) const { return values_[i]; }
-  Error wrong() const { return wrongOption(option_, form_, text_); }
-  Vector3 vector(std::size_t from) const {
-    return {values_[from], values_[from + 1], values_[from + 2]};
-  }
-  Direction direction(std::size_t from) const {
-    try {
-      return Direction::fromVector(vector(from));
-    } catch (const Error&) {
-      throw wrongOption(option_, "a direction", text_);
-    }
-  }
-  LinearRgb colour(std::size_t from) const {
-    if (from == values_.size()) return {1, 1, 1};
-    if (from + 3 != values_.size()) throw wrong();
-    return {static_cast<float>(values_[from]), static_cast<float>(values_[from + 1]),
-            static_cast<float>(values_[from + 2])};
-  }
-
- private:
-  const char *option_, *form_;
-  std::string text_;
-  std::vector<double> values_;
-};
 
 DirectionalLight directionalFrom(const std::string& text) {
   const Numbers numbers("--light", "x,y,z or x,y,z,r,g,b", text);
@@ -117,7 +66,8 @@ void LightOptions::addTo(CLI::App& command) {
   command.add_option("--env-rotation", rotationDegrees, "turns --env about its y axis, in degrees")
       ->group(group);
   command.add_option("--env-exposure", exposureStops, "of --env, in stops")->group(group);
-  command.add_option("--up", up, "x,y,z toward the top of --env and --sky (default: 0,1,0)")
+  command
+      .add_option("--up", up, "x,y,z toward the top of --env, --sky and --camera (default: 0,1,0)")
       ->group(group);
 }
 
@@ -126,13 +76,15 @@ bool LightOptions::empty() const {
          skies.empty() && setups.empty();
 }
 
+Direction LightOptions::upward() const {
+  if (up.empty()) return Direction::fromVector({0, 1, 0});
+  const Numbers numbers("--up", "x,y,z", up);
+  if (numbers.count() != 3) throw numbers.wrong();
+  return numbers.direction(0);
+}
+
 Lighting LightOptions::lighting() const {
-  Direction top = Direction::fromVector({0, 1, 0});
-  if (!up.empty()) {
-    const Numbers numbers("--up", "x,y,z", up);
-    if (numbers.count() != 3) throw numbers.wrong();
-    top = numbers.direction(0);
-  }
+  const Direction top = upward();
   Lighting all;
   for (const auto& text : lights) all.lights.emplace_back(directionalFrom(text));
   for (const auto& text : points) all.lights.emplace_back(pointFrom(text));

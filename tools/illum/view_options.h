@@ -1,0 +1,33 @@
+// The options that say from where an object is seen.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <optional>
+#include <string>
+
+#include "illum/lumigraph.h"
+#include "lumigraph/view_choice.h"
+
+namespace illum::cli {
+
+/// --view or --camera, and how views are made that are none of the object's.
+struct ViewOptions {
+  std::string view, camera, size;
+  std::optional<double> focus;
+  double aperture = 0;
+  int blend = 0;  ///< 0: the default
+  bool noDepth = false;
+
+  void addTo(CLI::App& command);
+  /// Default: the object's middle view. `up`: of a camera given by numbers. Throws Error
+  /// (Fault::Usage) for texts that mean nothing, as readCamera for a file.
+  ViewChoice choice(const Object& object, Direction up) const;
+  /// For `choice`. Throws Error (Fault::Usage) for options that have no meaning there.
+  SynthesisOptions synthesis(const Object& object, const ViewChoice& choice) const;
+
+ private:
+  ViewGeometry cameraGeometry(const Object& object, Direction up) const;
+  Plane focalPlane(const Object& object, const ViewChoice& choice) const;
+};
+
+}  // namespace illum::cli
