@@ -55,8 +55,8 @@ struct Plane {
 
 struct SynthesisOptions {
   /// What is sharp where no depth tells where surfaces are, or where depth is not to be looked at.
-  /// Empty: by depth, if the views have it; else each slab's own window, the plane that free
-  /// cameras look at, and infinity for panoramas.
+  /// Empty: by depth, if the views have it; else each slab's own window, the plane z = 0 of a
+  /// photograph, the plane that free cameras look at, and infinity for panoramas.
   std::optional<Plane> focus;
   /// Slabs: the radius of the synthetic aperture on the uv plane, in units of the object (Isaksen
   /// et al. 2000); 0: between the four nearest view points only. Needs `focus`, or views without

@@ -228,8 +228,11 @@ void Synthesis::placeOnPlane(const Rig& rig) {
   const SlabView* slab = slabView(rig.views.front());
   std::vector<const ViewProjector*> views;
   for (const int view : rig.views) views.push_back(&projectors_[static_cast<std::size_t>(view)]);
+  const bool photograph = std::holds_alternative<OrthographicView>(
+      source_.views()[static_cast<std::size_t>(rig.views.front())].geometry);
   const std::optional<Plane> plane = options_.focus ? options_.focus
                                      : slab         ? windowOf(slab->slab)
+                                     : photograph   ? Plane()
                                                     : planeLookedAt(views);
   // What a slab saw along a line, it saw of all of it, also behind the eye.
   const bool wholeLine = slab != nullptr;

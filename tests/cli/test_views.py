@@ -212,3 +212,123 @@ def test_camera_files_that_are_none(illum, slab, tmp_path, name):
 def test_a_photograph_has_one_view(illum, built, tmp_path):
     illum.refuses("relight", built, *LIT, "--view", "0,0", "-o", tmp_path / "o.png", code=2,
                   mentions="photograph", leaves=tmp_path)
+
+
+def frames(folder):
+    return sorted(p.name for p in folder.iterdir())
+
+
+def test_an_orbit_begins_at_the_middle_view(illum, slab, tmp_path):
+    illum("relight", slab, *LIT, "--path", "orbit", "--arc", "20", "--frames", "3", "-o",
+          tmp_path / "film")
+    assert frames(tmp_path / "film") == [f"frame_0000{k}.png" for k in range(3)]
+    pictures = [stacks.read_picture(tmp_path / "film" / name)
+                for name in frames(tmp_path / "film")]
+    stored = see(illum, slab, tmp_path)
+    assert np.abs(balls.over_black(pictures[1]) - balls.over_black(stored)).max() <= 1
+    for picture, degrees in zip(pictures, (-10, 0, 10)):
+        a = np.radians(degrees)
+        eye = 3 * np.array([np.sin(a), 0, np.cos(a)])
+        camera = balls.Camera.looking(eye, width=44, height=36,
+                                      degrees=2 * np.degrees(np.arctan(0.9 / 3)))
+        assert balls.likeness(picture, camera, LIGHT) > 20
+
+
+def test_an_orbit_says_where_nothing_is_seen(illum, slab, tmp_path):
+    outcome = illum("relight", slab, *LIT, "--path", "orbit", "--frames", "4", "-o",
+                    tmp_path / "film")
+    assert "3 of 4 pictures show nothing, frame_00001" in outcome.stderr
+    assert len(frames(tmp_path / "film")) == 4
+
+
+def test_an_orbit_of_a_camera_at_another_elevation(illum, poses, tmp_path):
+    options = ("--camera", "0,0,3,0,0,0", "--size", "30x20", "--path", "orbit", "--elevation",
+               "5.7105931375", "--frames", "1")
+    illum("relight", poses, *LIT, *options, "-o", tmp_path / "film")
+    picture = stacks.read_picture(tmp_path / "film/frame_00000.png")
+    eye = np.array([0, 0.0995037190, 0.9950371902]) * 3
+    assert picture.shape == (20, 30, 4)
+    assert balls.likeness(picture, balls.Camera.looking(eye, width=30, height=20), LIGHT) > 20
+
+
+def test_a_path_goes_through_its_cameras(illum, slab, tmp_path):
+    looks = [{"kind": "look", "eye": [x, 0.1, 3], "target": [0, 0, 0]} for x in (-0.5, 0.5)]
+    (tmp_path / "path.json").write_text(json.dumps({"path": 1, "frames": 3, "cameras": looks}))
+    illum("relight", slab, *LIT, "--path", tmp_path / "path.json", "--format", "jpg", "-o",
+          tmp_path / "film")
+    assert frames(tmp_path / "film") == [f"frame_0000{k}.jpg" for k in range(3)]
+    illum("relight", slab, *LIT, "--path", tmp_path / "path.json", "-o", tmp_path / "film",
+          "--force", "--frames", "5")
+    assert len(frames(tmp_path / "film")) == 3 + 5
+    for k, eye in ((0, "-0.5,0.1,3"), (2, "0,0.1,3"), (4, "0.5,0.1,3")):
+        alone = see(illum, slab, tmp_path, "--camera", f"{eye},0,0,0")
+        assert np.array_equal(alone, stacks.read_picture(tmp_path / f"film/frame_0000{k}.png"))
+
+
+def test_a_path_of_full_cameras(illum, slab, tmp_path):
+    records = [{"kind": "camera", "camera": balls.Slab().camera(u, 0.5).record()} for u in (0, 1)]
+    (tmp_path / "path.json").write_text(json.dumps({"path": 1, "cameras": records}))
+    illum("relight", slab, *LIT, "--path", tmp_path / "path.json", "-o", tmp_path / "film")
+    for k, view in enumerate(("0,0.5", "1,0.5")):
+        stored = balls.over_black(see(illum, slab, tmp_path, "--view", view))
+        film = balls.over_black(stacks.read_picture(tmp_path / f"film/frame_0000{k}.png"))
+        assert np.abs(stored - film).max() <= 1
+
+
+def test_an_orbit_round_a_photograph_shows_a_card(illum, built, tmp_path):
+    illum("relight", built, *LIT, "--path", "orbit", "--arc", "100", "--frames", "3", "-o",
+          tmp_path / "film")
+    left, front, right = (stacks.read_picture(tmp_path / f"film/frame_0000{k}.png")
+                          for k in range(3))
+    assert front[..., 3].mean() > 250
+    assert 0.4 < left[..., 3].mean() / front[..., 3].mean() < 0.9
+    assert np.abs(front[5:-5, 5:-5, :3].astype(int) -
+                  see(illum, built, tmp_path)[5:-5, 5:-5].astype(int)).max() <= 2
+
+
+HOSTILE_PATHS = {
+    "no file": (None, "path.json"),
+    "no JSON": ("{", "byte"),
+    "no cameras": ('{"path": 1, "cameras": []}', "cameras"),
+    "a newer one": ('{"path": 2, "cameras": [{}]}', "'path'"),
+    "an unknown kind": ('{"path": 1, "cameras": [{"kind": "lock"}]}', "cameras[0].kind"),
+    "through its target": ('{"path": 1, "frames": 3, "cameras": ['
+                           '{"kind": "look", "eye": [0,0,1], "target": [0,0,0]},'
+                           '{"kind": "look", "eye": [0,0,-1], "target": [0,0,0]}]}', "frame 1"),
+    "too many frames": ('{"path": 1, "frames": 1000000000, "cameras": ['
+                        '{"kind": "look", "eye": [0,0,1], "target": [0,0,0]}]}', "frames"),
+}
+
+
+@pytest.mark.parametrize("name", HOSTILE_PATHS)
+def test_path_files_that_are_none(illum, slab, tmp_path, name):
+    text, word = HOSTILE_PATHS[name]
+    file = tmp_path / "path.json"
+    if text is not None:
+        file.write_text(text)
+    sentence = illum.refuses("relight", slab, *LIT, "--path", file, "-o", tmp_path / "film",
+                             code=1, mentions=word, leaves=tmp_path)
+    assert "frame 1" in sentence or "path.json" in sentence
+
+
+@pytest.mark.parametrize("options, word", [
+    (("--path", "orbits"), "--path"),
+    (("--path", "orbit", "--frames", "0"), "frames"),
+    (("--path", "orbit", "--arc", "400"), "arc"),
+    (("--path", "orbit", "--elevation", "90"), "elevation"),
+    (("--path", "orbit", "--camera", "0,3,0,0,0,0", "--up", "0,0,1", "--elevation", "nan"),
+     "elevation"),
+    (("--path", "orbit", "--level", "1"), "--level"),
+    (("--path", "orbit", "--format", "gif"), "--format"),
+    (("--frames", "3"), "--path"),
+], ids=lambda o: " ".join(o) if isinstance(o, tuple) else "")
+def test_path_options_that_mean_nothing(illum, slab, tmp_path, options, word):
+    illum.refuses("relight", slab, *LIT, *options, "-o", tmp_path / "film", code=2,
+                  mentions=word, leaves=tmp_path)
+
+
+def test_a_film_does_not_replace_other_files(illum, slab, tmp_path):
+    (tmp_path / "film").mkdir()
+    (tmp_path / "film/mine.txt").write_text("mine")
+    illum.refuses("relight", slab, *LIT, "--path", "orbit", "-o", tmp_path / "film", code=1,
+                  mentions="--force", leaves=tmp_path)

@@ -11,6 +11,7 @@
 #include "encode/encode_tile.h"
 #include "encode/raw_archive.h"
 #include "encode/sample_object.h"
+#include "illum/lighting.h"
 
 namespace illum {
 namespace {
@@ -107,6 +108,33 @@ void addLightFiles(const fs::path& folder) {
   corpus.add("1\na.jpg nan 0 inf\n");
 }
 
+void addLightingFiles(const fs::path& folder) {
+  Corpus corpus(folder / "lighting_fuzz");
+  EnvironmentLight surroundings;
+  surroundings.picture = "room.exr";
+  const std::vector<Light> lights{DirectionalLight(), PointLight(),  SpotLight{{0, 0, 2}, {}},
+                                  RectangleLight(),   SphereLight(), surroundings,
+                                  SkyLight()};
+  for (const Light& light : lights) corpus.add(textOf(Lighting{{light}}));
+  corpus.add(textOf(Lighting{lights}));
+}
+
+void addCameras(const fs::path& folder) {
+  Corpus corpus(folder / "cameras_fuzz");
+  const std::string look =
+      R"({"kind":"look","eye":[0,1,4],"target":[0,0,0],"up":[0,1,0],"fieldOfViewDegrees":40})";
+  const std::string pose =
+      R"("size":{"width":8,"height":6},"objectFromCamera":{"rotation":[1,0,0,0,1,0,0,0,1],)"
+      R"("translation":[0,0,4]})";
+  const std::string camera = R"({"kind":"camera","camera":{)" + pose +
+                             R"(,"focalX":9,"focalY":9,"centre":{"x":4,"y":3}}})";
+  const std::string panorama = R"({"kind":"panorama","panorama":{"projection":"cylindrical",)" +
+                               pose + R"(,"extent":{"left":-3,"right":3,"bottom":-1,"top":1}}})";
+  for (const std::string& text : {look, camera, panorama}) corpus.add(text);
+  corpus.add(R"({"path":1,"cameras":[)" + camera + "," + panorama + "]}");
+  corpus.add(R"({"path":1,"frames":9,"closed":true,"cameras":[)" + look + "," + look + "]}");
+}
+
 void addCameraLists(const fs::path& folder) {
   Corpus transforms(folder / "transforms_fuzz");
   transforms.add(
@@ -155,6 +183,8 @@ int main(int argc, char** argv) {
     illum::addLightFiles(argv[1]);
     illum::addCaptureFiles(argv[1]);
     illum::addCameraLists(argv[1]);
+    illum::addLightingFiles(argv[1]);
+    illum::addCameras(argv[1]);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "%s\n", error.what());
     return 1;

@@ -2,9 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 #include <set>
+#include <vector>
 
 #include "commands.h"
 #include "core/memory.h"
@@ -14,6 +16,7 @@
 #include "illum/picture_io.h"
 #include "input_options.h"
 #include "light_options.h"
+#include "picture_folder.h"
 #include "terminal_progress.h"
 #include "view_options.h"
 
@@ -75,6 +78,13 @@ void checkRoom(Size size, std::uint64_t memoryBytes) {
                   size.width, size.height, textFromBytes(4 * kSynthesisBytes * size.pixels())));
 }
 
+bool showsNothing(const Picture& rgba) {
+  for (std::size_t i = 3; i < rgba.samples().size(); i += 4) {
+    if (rgba.samples()[i] > 0) return false;
+  }
+  return true;
+}
+
 struct RelightCommand {
   MachineOptions machine;
   LightOptions lights;
@@ -86,26 +96,25 @@ struct RelightCommand {
 
   void addTo(CLI::App& command) {
     command.add_option("OBJECT", object, ".illum file or folder")->required();
-    command.add_option("-o,--output", output, "picture, or folder with --lights")->required();
+    command.add_option("-o,--output", output, "picture, or folder with --lights or --path")
+        ->required();
     command.add_option("--lights", lightFile, "light file: a picture for each of its lines");
     command.add_option("--height", heights,
                        "picture of z, in units of the object, for lights near a photograph");
     command.add_option("--exposure", exposureStops, "in stops");
     command.add_option("--level", level, "0 is full size, each further one half");
-    command.add_option("--format", format, "png (default), jpg or exr, with --lights");
+    command.add_option("--format", format, "png (default), jpg or exr, with --lights or --path");
     command.add_flag("--force", force, "write into a folder that is not empty");
     views.addTo(command);
     lights.addTo(command);
     machine.addTo(command);
   }
 
+  PictureFolder folder() const { return {output, format, force, exposureStops}; }
+
+  // A picture for each line of the light file.
   void relightEach(Sight& sight) const {
-    if (format != "png" && format != "jpg" && format != "exr") {
-      throw Error(Fault::Usage,
-                  fmt::format("--format: expected png, jpg or exr, found \"{}\"", format));
-    }
     const LightFile file = readLightFile(lightFile);
-    const fs::path folder = output;
     std::set<std::string> stems;
     for (const auto& entry : file.entries) {
       const std::string stem = fs::path(entry.name).stem().string();
@@ -114,26 +123,70 @@ struct RelightCommand {
                          fmt::format("\"{}\" twice", stem));
       }
     }
-    if (fs::exists(folder) && (!fs::is_directory(folder) || (!force && !fs::is_empty(folder)))) {
-      throw Error(Fault::Input, fmt::format("{}: exists already; --force writes into it", output));
-    }
-    fs::create_directories(folder);
+    const PictureFolder pictures = folder();
     TerminalProgress progress;
     for (const auto& remark : file.remarks) progress.remark(remark);
     progress.begin("relighting", file.entries.size());
     for (const auto& entry : file.entries) {
-      const Picture picture = sight.under({{entry.light}, {}, {}});
-      const std::string stem = fs::path(entry.name).stem().string();
-      writePicture(folder / fmt::format("{}.{}", stem, format), picture, exposureStops);
+      pictures.write(fs::path(entry.name).stem().string(), sight.under({{entry.light}, {}, {}}));
       progress.advance();
     }
     progress.end();
+  }
+
+  // A picture for each camera of the path.
+  void followPath(const Object& opened, const Illumination& illumination) const {
+    const std::vector<ViewGeometry> way = views.pathGeometries(opened, lights.upward());
+    const std::uint64_t memoryBytes = machine.memoryBytes() / 2;
+    std::uint64_t pixels = 0;
+    for (const ViewGeometry& camera : way) {
+      checkRoom(sizeOf(camera), memoryBytes);
+      pixels = std::max(pixels, sizeOf(camera).pixels());
+    }
+    const SynthesisOptions synthesis = views.synthesis(opened, {std::nullopt, way.front(), {}});
+    Lumigraph lumigraph(opened, memoryBytes - kSynthesisBytes * pixels);
+    lumigraph.setLights(illumination);
+    const PictureFolder pictures = folder();
+    TerminalProgress progress;
+    progress.begin("relighting", way.size());
+    std::vector<std::size_t> empty;
+    for (std::size_t k = 0; k < way.size(); ++k) {
+      const Picture picture = lumigraph.see(way[k], synthesis).picture;
+      pictures.write(fmt::format("frame_{:05}", k), picture);
+      if (showsNothing(picture)) empty.push_back(k);
+      progress.advance();
+    }
+    progress.end();
+    if (!empty.empty()) {
+      progress.remark(
+          fmt::format("{} of {} pictures show nothing, frame_{:05} the first of them: no "
+                      "view looked there",
+                      empty.size(), way.size(), empty.front()));
+    }
   }
 
   PrepareOptions prepareOptions() const {
     PrepareOptions options;
     if (!heights.empty()) options.heights = std::make_shared<const Picture>(readPicture(heights));
     return options;
+  }
+
+  bool isPath() const { return !views.path.empty(); }
+
+  void checkUsage() const {
+    if (lights.empty() == lightFile.empty()) {
+      throw Error(Fault::Usage,
+                  fmt::format("relight: expected either lights (--light, --point, --spot, --env, "
+                              "--sky, --lighting) or --lights, found {}",
+                              lights.empty() ? "neither" : "both"));
+    }
+    if (!isPath()) return;
+    if (!lightFile.empty())
+      throw Error(Fault::Usage, "relight: expected either --path or --lights, found both");
+    if (level != 0 || !heights.empty()) {
+      throw Error(Fault::Usage, fmt::format("relight: expected either --path or {}, found both",
+                                            level != 0 ? "--level" : "--height"));
+    }
   }
 
   std::unique_ptr<Sight> sightOf(const Object& opened) const {
@@ -156,20 +209,18 @@ struct RelightCommand {
   }
 
   int run() const {
-    if (lights.empty() == lightFile.empty()) {
-      throw Error(Fault::Usage,
-                  fmt::format("relight: expected either lights (--light, --point, --spot, --env, "
-                              "--sky, --lighting) or --lights, found {}",
-                              lights.empty() ? "neither" : "both"));
-    }
+    checkUsage();
     const ThreadLimit limit(machine.threads);
     const Lighting lighting = lights.lighting();
-    if (lightFile.empty()) pictureFormat(output);
-    const auto sight = sightOf(Object::open(object));
-    if (lightFile.empty()) {
-      writePicture(output, sight->under(illuminationOf(lighting)), exposureStops);
+    const bool single = lightFile.empty() && !isPath();
+    if (single) pictureFormat(output);
+    const Object opened = Object::open(object);
+    if (isPath()) {
+      followPath(opened, illuminationOf(lighting));
+    } else if (single) {
+      writePicture(output, sightOf(opened)->under(illuminationOf(lighting)), exposureStops);
     } else {
-      relightEach(*sight);
+      relightEach(*sightOf(opened));
     }
     return kDone;
   }

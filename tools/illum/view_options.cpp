@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "illum/error.h"
-#include "lumigraph/camera_pose.h"
+#include "lumigraph/camera_path.h"
 #include "lumigraph/default_focus.h"
 #include "lumigraph/view_projector.h"
 #include "numbers.h"
@@ -67,8 +67,8 @@ void ViewOptions::addTo(CLI::App& command) {
                                   "ex,ey,ez,tx,ty,tz[,degrees]: eye, target, angle of view from "
                                   "bottom to top (default: 40); or a file of JSON");
   free->excludes(named);
-  command.add_option("--size", size, "WxH of --camera's picture (default: that of the views)")
-      ->needs(free)
+  command
+      .add_option("--size", size, "WxH of pictures of --camera and --path (default: as the views)")
       ->group(group);
   command
       .add_option("--aperture", aperture,
@@ -89,27 +89,81 @@ void ViewOptions::addTo(CLI::App& command) {
       ->group(group);
   named->group(group);
   free->group(group);
+  addPathOptions(command);
 }
 
-ViewGeometry ViewOptions::cameraGeometry(const Object& object, Direction up) const {
-  const Size standard = sizeOf(middleView(viewsOf(object)).geometry);
+void ViewOptions::addPathOptions(CLI::App& command) {
+  const std::string group = "Films";
+  auto* way = command
+                  .add_option("--path", path,
+                              "a numbered picture for each camera of a way: orbit, from --view or "
+                              "--camera on, or a file of JSON")
+                  ->group(group);
+  command.add_option("--frames", frames, "how many pictures (orbit: 36)")->needs(way)->group(group);
+  command.add_option("--arc", arcDegrees, "of an orbit, in degrees (default: 360)")
+      ->needs(way)
+      ->group(group);
+  command.add_option("--elevation", elevationDegrees, "of an orbit (default: that of its start)")
+      ->needs(way)
+      ->group(group);
+}
+
+CameraPose ViewOptions::pose(Direction up) const {
   const Numbers numbers("--camera",
                         "ex,ey,ez,tx,ty,tz, ex,ey,ez,tx,ty,tz,degrees or a file of JSON", camera);
-  if (numbers.count() > 0) {
-    if (numbers.count() != 6 && numbers.count() != 7) throw numbers.wrong();
-    return geometryOf(lookFrom(numbers, up), size.empty() ? standard : sizeFrom(size));
+  if (numbers.count() == 6 || numbers.count() == 7) return lookFrom(numbers, up);
+  if (numbers.count() > 0 || !camera.ends_with(".json")) throw numbers.wrong();
+  return readCamera(camera);
+}
+
+Size ViewOptions::pictureSize(const Object& object) const {
+  return size.empty() ? sizeOf(middleView(viewsOf(object)).geometry) : sizeFrom(size);
+}
+
+ViewGeometry ViewOptions::geometry(const CameraPose& from, const Object& object) const {
+  if (!size.empty() && !std::holds_alternative<LookAt>(from)) {
+    throw Error(Fault::Usage, fmt::format("--size: expected none, as {} says how large its picture "
+                                          "is, found \"{}\"",
+                                          path.empty() ? camera : path, size));
   }
-  if (!camera.ends_with(".json")) throw numbers.wrong();
-  const CameraPose pose = readCamera(camera);
-  if (!size.empty() && !std::holds_alternative<LookAt>(pose)) {
-    throw Error(Fault::Usage,
-                fmt::format("--size: {} says already how large its picture is", camera));
+  return geometryOf(from, pictureSize(object));
+}
+
+LookAt ViewOptions::orbitStart(const Object& object, Direction up) const {
+  const std::vector<View> views = viewsOf(object);
+  if (camera.empty()) {
+    return lookOf(view.empty() ? middleView(views) : viewNamed(views, view), views, up.vector());
   }
-  return geometryOf(pose, size.empty() ? standard : sizeFrom(size));
+  const CameraPose from = pose(up);
+  if (const auto* look = std::get_if<LookAt>(&from)) return *look;
+  return lookOf({std::nullopt, geometryOf(from, {}), {}}, views, up.vector());
+}
+
+std::vector<CameraPose> ViewOptions::pathPoses(const Object& object, Direction up) const {
+  if (path != "orbit") {
+    if (!path.ends_with(".json")) throw wrongOption("--path", "orbit or a file of JSON", path);
+    CameraPath way = readCameraPath(path);
+    if (frames && *frames < 1)
+      throw wrongOption("--frames", "at least 1", fmt::format("{}", *frames));
+    if (frames) way.frames = *frames;
+    return framesOf(way);
+  }
+  OrbitOptions options{frames.value_or(36), arcDegrees, elevationDegrees};
+  const LookAt start = orbitStart(object, up);
+  const bool outward = std::holds_alternative<Panorama>(object.view(0).geometry);
+  return outward ? turnRound(start, options) : orbit(start, options);
+}
+
+std::vector<ViewGeometry> ViewOptions::pathGeometries(const Object& object, Direction up) const {
+  std::vector<ViewGeometry> geometries;
+  for (const CameraPose& at : pathPoses(object, up)) geometries.push_back(geometry(at, object));
+  return geometries;
 }
 
 ViewChoice ViewOptions::choice(const Object& object, Direction up) const {
-  if (!camera.empty()) return {std::nullopt, cameraGeometry(object, up), {}};
+  if (!size.empty() && camera.empty())
+    throw Error(Fault::Usage, "--size: expected --camera or --path beside it, found neither");
+  if (!camera.empty()) return {std::nullopt, geometry(pose(up), object), {}};
   const std::vector<View> views = viewsOf(object);
   ViewChoice chosen = view.empty() ? middleView(views) : viewNamed(views, view);
   // What is to be out of focus is not a picture that the object has.
