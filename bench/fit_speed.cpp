@@ -95,9 +95,10 @@ WholeWay readAndFit(const std::filesystem::path& folder, std::uint64_t memoryByt
   const double planning = secondsSince(start) - opening;
   Manifest manifest;
   manifest.groups = {{capture->views().front(), 0, {}}};
-  RowFitter fitter(*capture, lights.used, {&plan.fit.planes}, manifest);
+  const Fit& fit = plan.bases.front().fit;
+  RowFitter fitter(*capture, lights.used, {&fit.planes}, manifest, silent);
   for (int row = 0; row < manifest.grid(0).tilesDown(0); ++row) fitter.fit(0, row);
-  return {secondsSince(start), opening, planning, plan.fit};
+  return {secondsSince(start), opening, planning, fit};
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include "illum/build.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <tbb/task_arena.h>
 
 #include <algorithm>
@@ -8,14 +9,14 @@
 
 #include "build/plan.h"
 #include "build/plane_row.h"
-#include "build/poster.h"
 #include "build/response_capture.h"
 #include "build/tile_writer.h"
+#include "build/view_writer.h"
 #include "core/memory.h"
 #include "encode/object_writer.h"
 #include "illum/error.h"
-#include "illum/picture_io.h"
 #include "illum/version.h"
+#include "object/entry_name.h"
 
 namespace illum {
 namespace {
@@ -24,7 +25,6 @@ namespace {
 constexpr int kDefaultQuality = 80;
 constexpr int kDefaultSpeed = 6;
 constexpr int kDefaultTile = 512;
-constexpr int kPosterQuality = 80;
 
 // What a program that reads photographs takes before it does anything: OpenImageIO's libraries.
 constexpr std::uint64_t kProgramBytes = std::uint64_t{160} << 20;
@@ -105,35 +105,47 @@ std::string fingerprintOf(const Capture& capture, const BuildOptions& o) {
 }
 
 // The side of a tile: what was asked for, or the largest whose planes fit one atlas.
-int tileFor(const BuildOptions& options, const CodingEntry& coding) {
+int tileFor(const BuildOptions& options, const std::vector<CodingEntry>& codings) {
   if (options.tile) return *options.tile;
-  const auto cells = (static_cast<int>(coding.functions.size()) + 2) / 3 *
-                     (splitsBytes(coding.coding, coding.bits) ? 2 : 1);
+  int cells = 1;
+  for (const CodingEntry& coding : codings) {
+    const auto triples = (static_cast<int>(coding.functions.size()) + 2) / 3;
+    cells = std::max(cells, triples * (splitsBytes(coding.coding, coding.bits) ? 2 : 1));
+  }
   int tile = kDefaultTile;
   while (tile > 64 && (kMaxAtlasSide / tile) * (kMaxAtlasSide / tile) < cells) tile /= 2;
   return tile;
 }
 
-Manifest manifestFor(const Capture& capture, const LightChoice& lights, const BuildOptions& options,
-                     Response response, const Plan& plan) {
-  const Fit& fit = plan.fit;
-  Manifest manifest;
-  manifest.tile = tileFor(options, plan.quantiser.entry);
-  manifest.response = response;
+BasisEntry basisEntryOf(const Fit& fit, const CodingEntry& coding, int quality) {
   BasisEntry basis;
   basis.name = fit.basisName;
   basis.coefficients = fit.coefficients > 0 ? fit.coefficients : fit.basis.planes();
   basis.colour = fit.basis.colour();
   basis.domain = fit.basis.table().domain();
-  basis.coding = plan.quantiser.entry;
+  basis.coding = coding;
+  basis.coding.quality = quality;
   basis.mixing = fit.mixing;
-  manifest.bases = {basis};
-  for (const View& view : capture.views()) manifest.groups.push_back({view, 0, {}});
+  return basis;
+}
+
+Manifest manifestFor(const Capture& capture, const LightChoice& lights, const BuildOptions& options,
+                     Response response, const Plan& plan, int quality) {
+  Manifest manifest;
+  manifest.tile = tileFor(options, plan.quantiser.entries);
+  manifest.response = response;
+  std::vector<TurnedFrame> frames;
+  for (std::size_t b = 0; b < plan.bases.size(); ++b) {
+    manifest.bases.push_back(basisEntryOf(plan.bases[b].fit, plan.quantiser.entries[b], quality));
+    frames.push_back(plan.bases[b].frame);
+  }
+  const auto basisOf = frameOfEachView(frames, capture.views().size());
+  for (std::size_t g = 0; g < basisOf.size(); ++g)
+    manifest.groups.push_back({capture.views()[g], basisOf[g], {}});
   manifest.mask = capture.hasMask();
   manifest.lights = capture.lights();
   manifest.heldOut = lights.heldOut;
   manifest.generator = fmt::format("Illumigraph {}", kVersion);
-  for (const auto& choice : fit.choices) manifest.provenance.emplace_back("fit", choice);
   return manifest;
 }
 
@@ -162,51 +174,54 @@ int tilesAtOnce(const Manifest& manifest, std::span<const int> planesOfBases,
   return static_cast<int>(std::clamp<std::uint64_t>((memoryBytes - fixed) / each, 1, threads));
 }
 
-std::uint64_t tileCount(const Manifest& manifest) {
-  std::uint64_t tiles = 0;
-  for (int g = 0; g < static_cast<int>(manifest.groups.size()); ++g)
-    tiles += manifest.grid(g).tiles();
-  return tiles;
+// One line of what was chosen for each basis, or one a choice where there is but one basis.
+std::vector<std::string> choicesOf(const Plan& plan, const std::vector<View>& views) {
+  if (plan.bases.size() == 1) return plan.bases[0].fit.choices;
+  std::vector<std::string> lines;
+  for (const PlannedBasis& basis : plan.bases)
+    lines.push_back(
+        fmt::format("{}: {}", nameOf(basis.frame, views), fmt::join(basis.fit.choices, "; ")));
+  return lines;
 }
 
-// Fits and codes all tiles; returns the clipped samples.
-std::uint64_t writeTiles(const Capture& capture, const LightChoice& lights, const Fit& fit,
-                         const Manifest& manifest, const EncodeSettings& settings, int atOnce,
-                         ObjectWriter& writer, Progress& progress) {
-  TileWriter tiles(manifest, settings, atOnce, writer, progress);
-  LevelPyramid pyramid(manifest, [&](const PlaneRow& row) {
-    tiles.write(row);
-    if (row.group > 0 || row.level + 1 < manifest.grid(0).levels()) return;
-    writer.add("poster.jpg", encodeJpeg(posterOf(row, fit, manifest.response, lights.directions),
-                                        kPosterQuality));
-  });
-  progress.begin("fitting and coding tiles", tileCount(manifest));
-  RowFitter fitter(capture, lights.used, {&fit.planes}, manifest);
-  for (int group = 0; group < capture.groups(); ++group) {
-    for (int row = 0; row < manifest.grid(group).tilesDown(0); ++row) {
-      pyramid.add(fitter.fit(group, row));
-    }
+void describe(const Plan& plan, const std::vector<View>& views, const EncodeSettings& settings,
+              Manifest& manifest, BuildReport& report) {
+  report.choices = choicesOf(plan, views);
+  for (const auto& choice : report.choices) manifest.provenance.emplace_back("fit", choice);
+  std::size_t stored = 0, planes = 0;
+  for (const PlannedBasis& basis : plan.bases) {
+    for (const std::string& warning : basis.fit.warnings)
+      if (std::ranges::find(report.warnings, warning) == report.warnings.end())
+        report.warnings.push_back(warning);
+    planes = std::max(planes, static_cast<std::size_t>(basis.fit.basis.planes()));
   }
-  progress.end();
-  return tiles.clippedSamples();
-}
-
-void describe(const Plan& plan, const EncodeSettings& settings, Manifest& manifest,
-              BuildReport& report) {
-  report.choices = plan.fit.choices;
-  report.warnings = plan.fit.warnings;
-  report.leaveOneOutDecibels = plan.fit.leaveOneOutDecibels;
+  for (const CodingEntry& entry : plan.quantiser.entries)
+    stored = std::max(stored, entry.functions.size());
+  report.leaveOneOutDecibels = plan.leaveOneOutDecibels();
   report.quantisationDecibels = plan.quantiser.decibels;
   const CodingEntry& coding = manifest.coding();
-  report.choices.push_back(
-      fmt::format("{} bits, curve {}, step {:.6g}: {} stored planes for {} of the basis; "
-                  "quantisation alone {:.1f} dB",
-                  coding.bits, coding.curve == Curve::Linear ? "linear" : "signedSqrt", coding.step,
-                  coding.functions.size(), plan.fit.basis.planes(), plan.quantiser.decibels));
+  report.choices.push_back(fmt::format(
+      "{} bits, curve {}, step {:.6g}: {}{} stored planes for {} of the basis; quantisation alone "
+      "{:.1f} dB",
+      coding.bits, coding.curve == Curve::Linear ? "linear" : "signedSqrt", coding.step,
+      plan.bases.size() > 1 ? "at most " : "", stored, planes, plan.quantiser.decibels));
   manifest.provenance.emplace_back("quantiser", report.choices.back());
   manifest.provenance.emplace_back(
       "coding", fmt::format("{}, quality {}, speed {}", nameOf(coding.coding), settings.quality,
                             settings.speed));
+}
+
+// basis.bin: the tables one after another.
+std::vector<std::byte> encodeTables(const Plan& plan, Manifest& manifest) {
+  std::vector<std::byte> all;
+  for (std::size_t b = 0; b < plan.bases.size(); ++b) {
+    BasisTable table = plan.bases[b].fit.basis.table();
+    const auto bytes = table.encode();
+    manifest.bases[b].tableOffset = all.size();
+    manifest.bases[b].tableBytes = bytes.size();
+    all.insert(all.end(), bytes.begin(), bytes.end());
+  }
+  return all;
 }
 
 }  // namespace
@@ -240,24 +255,21 @@ BuildReport buildObject(const Capture& source, const std::filesystem::path& out,
     EncodeSettings settings;
     settings.quality = options.quality >= 0 ? options.quality : kDefaultQuality;
     settings.speed = options.speed >= 0 ? options.speed : kDefaultSpeed;
-    Manifest manifest = manifestFor(capture, lights, options, response, plan);
-    for (BasisEntry& basis : manifest.bases) basis.coding.quality = settings.quality;
-    describe(plan, settings, manifest, report);
+    Manifest manifest = manifestFor(capture, lights, options, response, plan, settings.quality);
+    describe(plan, capture.views(), settings, manifest, report);
 
-    const std::vector<int> planesOfBases{plan.fit.basis.planes()};
+    std::vector<int> planesOfBases;
+    for (const PlannedBasis& basis : plan.bases) planesOfBases.push_back(basis.fit.basis.planes());
     const int atOnce = tilesAtOnce(manifest, planesOfBases, capture, memoryBytes);
     const std::uint64_t clipped =
-        writeTiles(capture, lights, plan.fit, manifest, settings, atOnce, writer, progress);
+        ViewWriter(capture, lights, plan, manifest, settings, atOnce, writer, progress).writeAll();
     if (clipped > 0) {
       report.warnings.push_back(fmt::format(
           "{} plane samples lay outside the quantiser's range and took its nearest end", clipped));
     }
-    BasisTable table = plan.fit.basis.table();
-    const auto tableBytes = table.encode();
-    manifest.bases[0].tableBytes = tableBytes.size();
-    writer.add("basis.bin", tableBytes);
+    writer.add(std::string(kBasisEntry), encodeTables(plan, manifest));
     const std::string text = textOf(manifest);
-    writer.add("object.json", std::as_bytes(std::span(text)));
+    writer.add(std::string(kManifestEntry), std::as_bytes(std::span(text)));
     report.bytes = writer.finish();
   } catch (const BuildStopped&) {
     writer.keepPartial();

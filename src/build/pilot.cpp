@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "illum/error.h"
 
@@ -15,19 +16,50 @@ constexpr int kBlockSide = 16;
 constexpr std::size_t kMaxPixels = 250000;
 constexpr double kMaxMomentOperations = 1e11;  // about two seconds of one core
 
-// The blocks of one row of blocks that belong to the pilot.
-std::vector<Rectangle> blocksOfRow(Size size, int blockRow, int stride) {
-  std::vector<Rectangle> blocks;
+// Of the pixels that are rendered, so many are rendered once more beforehand: enough to choose by,
+// and little beside the rest. Small captures still give as many as choosing needs.
+constexpr double kRenderedShare = 1.0 / 12;
+constexpr double kLeastRendered = 16384;
+
+struct Block {
+  int group = 0;
+  Rectangle pixels;
+};
+
+// The blocks of one row of blocks that belong to the pilot; `turn` counts such rows over all
+// pictures.
+void addBlocksOfRow(Size size, int group, int blockRow, int turn, int stride,
+                    std::vector<Block>& blocks) {
   const int across = (size.width + kBlockSide - 1) / kBlockSide;
   // Rows are shifted against one another by the golden section, so that no column is never seen.
-  const int turn = blockRow / stride;
-  const int shift = static_cast<int>(0.6180339887 * turn * stride) % stride;
+  const int shift = static_cast<int>(std::fmod(0.6180339887 * turn * stride, stride));
   for (int column = shift; column < across; column += stride) {
     const int x = column * kBlockSide, y = blockRow * kBlockSide;
     blocks.push_back(
-        {x, y, std::min(kBlockSide, size.width - x), std::min(kBlockSide, size.height - y)});
+        {group,
+         {x, y, std::min(kBlockSide, size.width - x), std::min(kBlockSide, size.height - y)}});
   }
-  return blocks;
+}
+
+// Every `stride`-th row of blocks, counted on from picture to picture; what is read side by side.
+std::vector<std::vector<Block>> rowsOfBlocks(const Capture& capture, std::span<const int> groups,
+                                             int stride) {
+  // Rows of small pictures hold too few blocks for many threads; where order does not matter,
+  // several are read at once.
+  constexpr std::size_t kTogether = 64;
+  std::vector<std::vector<Block>> rows;
+  int counted = 0;
+  for (const int group : groups) {
+    const Size size = capture.size(group);
+    const int down = (size.height + kBlockSide - 1) / kBlockSide;
+    for (int blockRow = 0; blockRow < down; ++blockRow, ++counted) {
+      if (counted % stride != 0) continue;
+      if (rows.empty() || !capture.isRendered() || rows.back().size() >= kTogether)
+        rows.emplace_back();
+      addBlocksOfRow(size, group, blockRow, counted / stride, stride, rows.back());
+    }
+  }
+  return rows;
 }
 
 constexpr std::size_t kMomentParts = 8;
@@ -66,19 +98,21 @@ struct BlockSamples {
   std::vector<float> samples;  // rows x pixels
 };
 
-BlockSamples readBlock(const Capture& capture, const Rectangle& block,
-                       std::span<const int> lights) {
-  const std::size_t rows = 3 * lights.size(), pixels = block.pixels();
+BlockSamples readBlock(const Capture& capture, const Block& block, std::span<const int> lights) {
+  const std::size_t rows = 3 * lights.size(), pixels = block.pixels.pixels();
   BlockSamples out{pixels, std::vector<float>(rows * pixels)};
-  capture.read(0, block, lights, out.samples);
+  capture.read(block.group, block.pixels, lights, out.samples);
   if (!capture.hasMask()) return out;
 
+  // What is rendered is the mean over the covered part, however small; photographs are mixed with
+  // what lies behind.
+  const float least = capture.isRendered() ? std::numeric_limits<float>::min() : 0.5f;
   std::vector<float> coverage(pixels);
-  capture.readMask(0, block, coverage);
+  capture.readMask(block.group, block.pixels, coverage);
   std::size_t kept = 0;
   std::vector<std::size_t> source;
   for (std::size_t p = 0; p < pixels; ++p) {
-    if (coverage[p] >= 0.5f) source.push_back(p), ++kept;
+    if (coverage[p] >= least) source.push_back(p), ++kept;
   }
   for (std::size_t row = 0; row < rows; ++row) {
     for (std::size_t p = 0; p < kept; ++p) {
@@ -92,27 +126,33 @@ BlockSamples readBlock(const Capture& capture, const Rectangle& block,
 
 }  // namespace
 
-std::size_t pilotPixels(int lights, std::uint64_t memoryBytes) {
+std::size_t pilotPixels(const Capture& capture, std::uint64_t allPixels, int lights,
+                        std::uint64_t memoryBytes) {
   const double rows = 3.0 * lights;
   const double byCost = kMaxMomentOperations / (rows * rows);
   // The samples stand in memory twice while blocks are put together.
   const double byMemory = static_cast<double>(memoryBytes) / (4.0 * sizeof(float) * rows);
-  const double pixels = std::min({static_cast<double>(kMaxPixels), byCost, byMemory});
+  double pixels = std::min({static_cast<double>(kMaxPixels), byCost, byMemory});
+  if (capture.isRendered()) {
+    const double share = kRenderedShare * static_cast<double>(allPixels);
+    pixels = std::min(pixels, std::max(kLeastRendered, share));
+  }
   return std::max<std::size_t>(4096, static_cast<std::size_t>(pixels));
 }
 
-Pilot drawPilot(const Capture& capture, std::span<const int> lights, std::size_t maxPixels,
-                Progress& progress) {
-  const Size size = capture.size();
-  const double share = static_cast<double>(maxPixels) / static_cast<double>(size.pixels());
+Pilot drawPilot(const Capture& capture, std::span<const int> groups, std::span<const int> lights,
+                std::size_t maxPixels, Progress& progress) {
+  double all = 0;
+  for (const int group : groups) all += static_cast<double>(capture.size(group).pixels());
+  const double share = static_cast<double>(maxPixels) / all;
   const int stride = share >= 1 ? 1 : static_cast<int>(std::ceil(1 / std::sqrt(share)));
-  const int blockRows = (size.height + kBlockSide - 1) / kBlockSide;
+  const auto rowsOfPilot = rowsOfBlocks(capture, groups, stride);
 
-  progress.begin("looking over the photographs",
-                 static_cast<std::uint64_t>((blockRows + stride - 1) / stride));
+  progress.begin(
+      capture.isRendered() ? "rendering a few pixels to choose by" : "looking over the photographs",
+      rowsOfPilot.size());
   std::vector<BlockSamples> parts;
-  for (int blockRow = 0; blockRow < blockRows; blockRow += stride) {
-    const auto blocks = blocksOfRow(size, blockRow, stride);
+  for (const std::vector<Block>& blocks : rowsOfPilot) {
     const std::size_t first = parts.size();
     parts.resize(first + blocks.size());
     tbb::parallel_for(std::size_t{0}, blocks.size(), [&](std::size_t i) {
@@ -127,9 +167,13 @@ Pilot drawPilot(const Capture& capture, std::span<const int> lights, std::size_t
   pilot.complete = stride == 1;
   for (const auto& part : parts) pilot.pixels += part.pixels;
   if (pilot.pixels == 0) {
-    throw Error(Fault::Input,
-                "the mask leaves no pixel of the photographs: expected coverage of at "
-                "least one half somewhere, found none");
+    // Between the blocks there may be something.
+    if (stride > 1) return drawPilot(capture, groups, lights, 4 * maxPixels, progress);
+    throw Error(Fault::Input, capture.isRendered()
+                                  ? "the views show nothing: expected something of the scene in "
+                                    "at least one pixel, found none"
+                                  : "the mask leaves no pixel of the photographs: expected "
+                                    "coverage of at least one half somewhere, found none");
   }
   const std::size_t rows = 3 * lights.size();
   pilot.samples.resize(rows * pilot.pixels);

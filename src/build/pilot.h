@@ -19,13 +19,17 @@ struct Pilot {
   bool complete = false;       ///< every unmasked pixel is in it
 };
 
-/// Reads at most `maxPixels` unmasked pixels (coverage >= 1/2) of group 0 under `lights`, in blocks
-/// spread evenly over the picture, top to bottom. Throws Error if the mask leaves nothing.
-Pilot drawPilot(const Capture& capture, std::span<const int> lights, std::size_t maxPixels,
-                Progress& progress);
+/// Reads about `maxPixels` pixels of the given groups (rising) under `lights`, in blocks spread
+/// evenly over the pictures, from the first to the last and from top to bottom, and keeps the
+/// unmasked ones (coverage >= 1/2; of rendered captures any). Throws Error if the mask leaves
+/// nothing.
+Pilot drawPilot(const Capture& capture, std::span<const int> groups, std::span<const int> lights,
+                std::size_t maxPixels, Progress& progress);
 
-/// How many pixels are worth it: bounded by the cost of the second moments and by memory.
-std::size_t pilotPixels(int lights, std::uint64_t memoryBytes);
+/// How many pixels are worth it: bounded by the cost of the second moments and by memory; where
+/// pixels are rendered to be looked at, also by a share of the `pixels` that there are.
+std::size_t pilotPixels(const Capture& capture, std::uint64_t pixels, int lights,
+                        std::uint64_t memoryBytes);
 
 /// Mean and second moments of the samples over the pilot's pixels, summed in double.
 SampleStatistics statisticsOf(const Pilot& pilot);

@@ -44,6 +44,19 @@ QuantiserRequest quantiserRequestFrom(const BuildOptions& options) {
   return request;
 }
 
+std::uint64_t pixelsOf(const Capture& capture, const TurnedFrame& frame) {
+  std::uint64_t pixels = 0;
+  for (const int group : frame.groups) pixels += capture.size(group).pixels();
+  return pixels;
+}
+
+QuantiserTrial trialOf(const PlannedBasis& basis, const Pilot& pilot, Response response,
+                       std::size_t trials) {
+  std::vector<float> planes(static_cast<std::size_t>(basis.fit.basis.planes()) * pilot.pixels);
+  basis.fit.planes.apply(pilot.samples, pilot.pixels, planes);
+  return {basis.fit, basis.directions, response, planes, pilot.pixels, pilot.complete, trials};
+}
+
 }  // namespace
 
 LightChoice chooseLights(const Capture& capture, int holdout) {
@@ -64,21 +77,44 @@ LightChoice chooseLights(const Capture& capture, int holdout) {
   return choice;
 }
 
+double Plan::leaveOneOutDecibels() const {
+  double sum = 0, views = 0;
+  for (const PlannedBasis& basis : bases) {
+    const auto count = static_cast<double>(basis.frame.groups.size());
+    sum += count * basis.fit.leaveOneOutDecibels;
+    views += count;
+  }
+  return sum / views;
+}
+
 Plan planObject(const Capture& capture, const LightChoice& lights, const BuildOptions& options,
                 Response response, std::uint64_t memoryBytes, Progress& progress) {
   const FitOptions fitOptions = fitOptionsFrom(options);
   const QuantiserRequest request = quantiserRequestFrom(options);
-
-  const auto most = pilotPixels(static_cast<int>(lights.used.size()), memoryBytes);
-  const Pilot pilot = drawPilot(capture, lights.used, most, progress);
-  progress.begin("choosing the light basis", 1);
+  const std::vector<TurnedFrame> frames = framesOf(capture.views());
+  if (frames.size() > static_cast<std::size_t>(kMaxBases)) {
+    throw Error(Fault::Input,
+                fmt::format("expected views turned in at most {} ways, for each needs a light "
+                            "basis of its own, found {}",
+                            kMaxBases, frames.size()));
+  }
   Plan plan;
-  plan.fit = fitBasis(lights.directions, statisticsOf(pilot), fitOptions);
-  std::vector<float> planes(static_cast<std::size_t>(plan.fit.basis.planes()) * pilot.pixels);
-  plan.fit.planes.apply(pilot.samples, pilot.pixels, planes);
-  plan.quantiser = chooseQuantiser(plan.fit, lights.directions, response, planes, pilot.pixels,
-                                   pilot.complete, request);
-  progress.end();
+  std::vector<QuantiserTrial> trials;
+  for (const TurnedFrame& frame : frames) {
+    PlannedBasis& basis = plan.bases.emplace_back();
+    basis.frame = frame;
+    basis.directions = frame.turned(lights.directions);
+    const Pilot pilot = drawPilot(capture, frame.groups, lights.used,
+                                  pilotPixels(capture, pixelsOf(capture, frame),
+                                              static_cast<int>(lights.used.size()), memoryBytes) /
+                                      frames.size(),
+                                  progress);
+    progress.begin("choosing the light basis", 1);
+    basis.fit = fitBasis(basis.directions, statisticsOf(pilot), fitOptions);
+    trials.push_back(trialOf(basis, pilot, response, frames.size()));
+    progress.end();
+  }
+  plan.quantiser = chooseQuantiser(trials, request);
   return plan;
 }
 

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "build/frames.h"
 #include "build/quantiser.h"
 #include "fit/fit.h"
 #include "illum/build.h"
@@ -21,12 +22,21 @@ struct LightChoice {
 /// Throws Error (Fault::Usage) if nothing is left to fit.
 LightChoice chooseLights(const Capture& capture, int holdout);
 
-struct Plan {
+/// The basis of the views that are turned alike, and the operator that is computed once for them.
+struct PlannedBasis {
+  TurnedFrame frame;
+  std::vector<DirectionalLight> directions;  ///< the used lights as the frame sees them
   Fit fit;
-  QuantiserChoice quantiser;
 };
 
-/// Reads the pilot and chooses. `memoryBytes` bounds the pilot.
+struct Plan {
+  std::vector<PlannedBasis> bases;  ///< at least one
+  QuantiserChoice quantiser;        ///< with an entry for each of them
+
+  double leaveOneOutDecibels() const;  ///< the mean over all views
+};
+
+/// Reads the pilots and chooses. `memoryBytes` bounds the pilots, of which one is held at a time.
 Plan planObject(const Capture& capture, const LightChoice& lights, const BuildOptions& options,
                 Response response, std::uint64_t memoryBytes, Progress& progress);
 

@@ -4,6 +4,9 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
 
 namespace illum {
 namespace {
@@ -22,12 +25,23 @@ void beginRow(const Manifest& manifest, std::size_t planes, int group, int level
   out.size = {whole.width, std::min(manifest.tile, whole.height - row * manifest.tile)};
   out.values.resize(planes * out.size.pixels());
   if (manifest.mask) out.coverage.resize(out.size.pixels());
+  const bool hasDepth = manifest.groups[static_cast<std::size_t>(group)].depth.has_value();
+  out.depth.resize(hasDepth ? out.size.pixels() : 0);
+}
+
+// Of four depths, infinity where nothing is; the lower one of two in the middle. Never a mean: what
+// is between two surfaces is on neither.
+float medianDepth(std::array<float, 4> depths) {
+  std::sort(depths.begin(), depths.end());
+  const auto seen =
+      std::count_if(depths.begin(), depths.end(), [](float depth) { return std::isfinite(depth); });
+  return depths[static_cast<std::size_t>(std::max<std::ptrdiff_t>(seen - 1, 0) / 2)];
 }
 
 }  // namespace
 
 struct RowFitter::Scratch {
-  std::vector<float> samples, planes, coverage;
+  std::vector<float> samples, planes, values;
 };
 
 struct RowFitter::State {
@@ -35,11 +49,13 @@ struct RowFitter::State {
 };
 
 RowFitter::RowFitter(const Capture& capture, std::span<const int> lights,
-                     std::vector<const PlaneOperator*> operators, const Manifest& manifest)
+                     std::vector<const PlaneOperator*> operators, const Manifest& manifest,
+                     Progress& progress)
     : capture_(capture),
       lights_(lights),
       operators_(std::move(operators)),
       manifest_(manifest),
+      progress_(progress),
       state_(std::make_unique<State>()) {}
 RowFitter::~RowFitter() = default;
 
@@ -67,10 +83,16 @@ void RowFitter::fitPatch(const Rectangle& patch, int top, Scratch& scratch) {
   for (std::size_t k = 0; k < planes; ++k) {
     store(scratch.planes.data() + k * pixels, row_.values.data() + k * row_.size.pixels());
   }
-  if (row_.coverage.empty()) return;
-  scratch.coverage.resize(pixels);
-  capture_.readMask(row_.group, patch, scratch.coverage);
-  store(scratch.coverage.data(), row_.coverage.data());
+  scratch.values.resize(pixels);
+  if (!row_.coverage.empty()) {
+    capture_.readMask(row_.group, patch, scratch.values);
+    store(scratch.values.data(), row_.coverage.data());
+  }
+  if (!row_.depth.empty()) {
+    capture_.readDepth(row_.group, patch, scratch.values);
+    store(scratch.values.data(), row_.depth.data());
+  }
+  progress_.advance(pixels);
 }
 
 const PlaneRow& RowFitter::fit(int group, int row) {
@@ -100,7 +122,7 @@ std::uint64_t planeRowBytes(const Manifest& manifest, std::span<const int> plane
     const auto planes =
         static_cast<std::uint64_t>(planesOfBases[static_cast<std::size_t>(group.basis)]);
     const auto pixels = Size{size.width, std::min(manifest.tile, size.height)}.pixels();
-    most = std::max<std::uint64_t>(most, pixels * (planes + 1) * sizeof(float));
+    most = std::max<std::uint64_t>(most, pixels * (planes + 2) * sizeof(float));
   }
   return 2 * most;  // level l in flight is half as wide as level l-1
 }
@@ -148,6 +170,12 @@ void LevelPyramid::shrinkInto(const PlaneRow& fine, PlaneRow& coarse) const {
         float mean = 0;
         for (std::size_t i = 0; i < count; ++i) mean += weights[i] * plane[texels[i]];
         coarse.values[k * coarse.size.pixels() + to] = mean / sum;
+      }
+      if (!fine.depth.empty()) {
+        std::array<float, 4> depths;
+        depths.fill(std::numeric_limits<float>::infinity());
+        for (std::size_t i = 0; i < count; ++i) depths[i] = fine.depth[texels[i]];
+        coarse.depth[to] = medianDepth(depths);
       }
       if (fine.coverage.empty()) continue;
       for (std::size_t i = 0; i < count; ++i) covered += fine.coverage[texels[i]];

@@ -19,15 +19,18 @@ struct PlaneRow {
   Size size;
   std::vector<float> values;
   std::vector<float> coverage;  ///< empty without a mask
+  std::vector<float> depth;     ///< infinity where nothing is; empty if the group has none
 };
 
 /// Fits rows of tiles of level 0. Buffers are kept from row to row: clearing fresh pages took a
 /// quarter of the time (docs/performance.md).
 class RowFitter {
  public:
-  /// `operators`: one a basis of the manifest. All must outlive the fitter.
+  /// `operators`: one a basis of the manifest. All must outlive the fitter. `progress` advances by
+  /// the number of pixels fitted.
   RowFitter(const Capture& capture, std::span<const int> lights,
-            std::vector<const PlaneOperator*> operators, const Manifest& manifest);
+            std::vector<const PlaneOperator*> operators, const Manifest& manifest,
+            Progress& progress);
   ~RowFitter();
 
   /// Reads and fits row `row` of a group, in parallel. Rows are asked for from the top down: a
@@ -45,6 +48,7 @@ class RowFitter {
   std::span<const int> lights_;
   std::vector<const PlaneOperator*> operators_;
   const Manifest& manifest_;
+  Progress& progress_;
   PlaneRow row_;
   std::unique_ptr<State> state_;
 };
@@ -53,8 +57,8 @@ class RowFitter {
 /// `planesOfBases`: of each basis of the manifest.
 std::uint64_t planeRowBytes(const Manifest& manifest, std::span<const int> planesOfBases);
 
-/// Makes level l+1 from level l by 2 x 2 averages (weighted by coverage), row of tiles by row of
-/// tiles.
+/// Makes level l+1 from level l by 2 x 2 averages (weighted by coverage; of depths the median), row
+/// of tiles by row of tiles.
 class LevelPyramid {
  public:
   using Emit = std::function<void(const PlaneRow&)>;

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 
 namespace illum {
 namespace {
@@ -31,6 +32,18 @@ class RampCapture final : public Capture {
       coverage[i] = r.x + static_cast<int>(i) % r.width < size().width / 2 ? 1.0f : 0.0f;
     }
   }
+  bool hasDepth() const override { return true; }
+  // Falls away to the right, with a hole.
+  static float depthAt(int x, int y) {
+    const bool hole = x >= 100 && x < 103 && y < 40;
+    return hole ? std::numeric_limits<float>::infinity() : -value(x, y);
+  }
+  void readDepth(int, const Rectangle& r, std::span<float> depth) const override {
+    for (std::size_t i = 0; i < depth.size(); ++i) {
+      const auto p = static_cast<int>(i);
+      depth[i] = depthAt(r.x + p % r.width, r.y + p / r.width);
+    }
+  }
   int bandRows() const override { return band_; }
   std::uint64_t residentBytes() const override { return 0; }
   std::string fingerprint() const override { return {}; }
@@ -41,6 +54,8 @@ class RampCapture final : public Capture {
   bool mask_;
   std::vector<LightFileEntry> lights_;
 };
+
+Progress silent;
 
 Manifest manifestFor(Size size, int tile, bool mask) {
   Manifest manifest;
@@ -62,7 +77,7 @@ TEST(RowFitter, EveryTexelOfEveryRowIsFitted) {
     const auto manifest = manifestFor(size, 64, false);
     const auto op = twoPlanes();
     const std::vector<int> lights{0};
-    RowFitter fitter(capture, lights, {&op}, manifest);
+    RowFitter fitter(capture, lights, {&op}, manifest, silent);
     for (int row = 0; row < 3; ++row) {
       const PlaneRow& out = fitter.fit(0, row);
       ASSERT_EQ(out.size.height, row < 2 ? 64 : 22);
@@ -83,8 +98,9 @@ struct Seen {
   std::vector<PlaneRow> last;             // of each level
 };
 
-Seen runPyramid(Size size, bool mask) {
-  const auto manifest = manifestFor(size, 64, mask);
+Seen runPyramid(Size size, bool mask, bool depth = false) {
+  auto manifest = manifestFor(size, 64, mask);
+  if (depth) manifest.groups[0].depth = DepthRange{-300, 0, 1000};
   const RampCapture capture(size, 64, mask);
   const auto op = twoPlanes();
   const std::vector<int> lights{0};
@@ -94,7 +110,7 @@ Seen runPyramid(Size size, bool mask) {
     seen.rows.emplace_back(row.level, row.row);
     seen.last[static_cast<std::size_t>(row.level)] = row;
   });
-  RowFitter fitter(capture, lights, {&op}, manifest);
+  RowFitter fitter(capture, lights, {&op}, manifest, silent);
   for (int row = 0; row < manifest.grid(0).tilesDown(0); ++row) pyramid.add(fitter.fit(0, row));
   return seen;
 }
@@ -126,6 +142,38 @@ TEST(LevelPyramid, HiddenTexelsDoNotBleed) {
   EXPECT_NEAR(kept, 124 + 0.01 * (128 + 0.5), 0.01);
   EXPECT_NEAR(coarse.coverage[62], 0.5, 1e-6);
   EXPECT_EQ(coarse.coverage[63], 0);
+}
+
+TEST(LevelPyramid, DepthsAreMediansNeverMeans) {
+  EXPECT_TRUE(runPyramid({250, 200}, false).last[0].depth.empty());
+  const auto seen = runPyramid({250, 200}, false, true);
+  const PlaneRow& fine = seen.last[0];  // the last row of tiles, which has no hole
+  for (int x = 0; x < 250; ++x)
+    ASSERT_EQ(fine.depth[static_cast<std::size_t>(x)], RampCapture::depthAt(x, 192));
+  // Columns 2 i and 2 i + 1 of rows 128 and 129 below each texel of the second row of level 1: the
+  // second least of four.
+  const PlaneRow& coarse = seen.last[1];
+  for (int i = 0; i < 125; ++i)
+    ASSERT_EQ(coarse.depth[static_cast<std::size_t>(i)], RampCapture::depthAt(2 * i + 1, 128)) << i;
+}
+
+TEST(LevelPyramid, DepthsBesideAHoleAreThoseThatAreThere) {
+  const auto manifest = [] {
+    auto m = manifestFor({250, 60}, 64, false);
+    m.groups[0].depth = DepthRange{-300, 0, 1000};
+    return m;
+  }();
+  const RampCapture capture({250, 60}, 64, false);
+  const auto op = twoPlanes();
+  const std::vector<int> lights{0};
+  PlaneRow coarse;
+  LevelPyramid pyramid(manifest, [&](const PlaneRow& row) {
+    if (row.level == 1) coarse = row;
+  });
+  RowFitter fitter(capture, lights, {&op}, manifest, silent);
+  pyramid.add(fitter.fit(0, 0));
+  EXPECT_TRUE(std::isinf(coarse.depth[50])) << "columns 100 and 101 are a hole";
+  EXPECT_EQ(coarse.depth[51], RampCapture::depthAt(103, 1)) << "the lower of two: the farther";
 }
 
 }  // namespace

@@ -10,9 +10,9 @@
 
 namespace illum {
 
-/// A view's coarsest level under the captured light nearest to the upper left, scaled down by a
+/// A view's coarsest level under the captured light nearest to its upper left, scaled down by a
 /// whole factor to at most kPosterSide a side; black where the mask hides. `lights` are those of
-/// the fit.
+/// the fit, in the view's frame.
 BytePicture posterOf(const PlaneRow& coarsest, const Fit& fit, Response response,
                      std::span<const DirectionalLight> lights);
 

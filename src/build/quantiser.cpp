@@ -13,16 +13,15 @@
 namespace illum {
 namespace {
 
-// Pixels on which a candidate is tried.
-constexpr std::size_t kTrialPixels = 16384;
+// Pixels on which a candidate is tried, and samples of all trials together.
+constexpr std::size_t kTrialPixels = 16384, kLeastTrialPixels = 1024;
+constexpr std::size_t kTrialSamples = kTrialPixels * 128;
 
 // Stored planes may be this many times the basis planes, when ranges are split over several.
 constexpr double kMaxSplit = 2.0;
 
-struct Range {
-  double low = 0, high = 0;
-  double length() const { return high - low; }
-};
+using Range = QuantiserTrial::Range;
+using Ranges = std::vector<Range>;
 
 double curved(Curve curve, double value) {
   return curve == Curve::Linear ? value : std::copysign(std::sqrt(std::abs(value)), value);
@@ -31,25 +30,9 @@ double uncurved(Curve curve, double s) {
   return curve == Curve::Linear ? s : s * std::abs(s);
 }
 
-std::vector<Range> rangesOf(std::span<const float> planes, std::size_t pixels, bool complete,
-                            Curve curve) {
-  std::vector<Range> ranges;
-  for (std::size_t begin = 0; begin < planes.size(); begin += pixels) {
-    const auto [low, high] =
-        std::minmax_element(planes.begin() + static_cast<std::ptrdiff_t>(begin),
-                            planes.begin() + static_cast<std::ptrdiff_t>(begin + pixels));
-    Range range{curved(curve, static_cast<double>(*low)),
-                curved(curve, static_cast<double>(*high))};
-    // A selection has not seen the extremes.
-    const double margin = complete ? 0 : 0.1 * range.length();
-    ranges.push_back({range.low - margin, range.high + margin});
-  }
-  return ranges;
-}
-
 // The stored planes for a step: as many for each basis plane as its range needs.
 CodingEntry entryFor(const QuantiserRequest& request, Curve curve, int bits, double step,
-                     const std::vector<Range>& ranges, bool mayRepeat) {
+                     const Ranges& ranges, bool mayRepeat) {
   CodingEntry entry;
   entry.coding = request.coding;
   entry.bits = bits;
@@ -67,9 +50,10 @@ CodingEntry entryFor(const QuantiserRequest& request, Curve curve, int bits, dou
   return entry;
 }
 
-double longest(const std::vector<Range>& ranges) {
+double longest(const std::vector<Ranges>& rangesOfBases) {
   double length = 0;
-  for (const Range& range : ranges) length = std::max(length, range.length());
+  for (const Ranges& ranges : rangesOfBases)
+    for (const Range& range : ranges) length = std::max(length, range.length());
   // Constant planes still need a step that is a number.
   return std::max(length, 1e-6);
 }
@@ -80,84 +64,45 @@ float onScreen(Response response, float value) {
   return displayFromLinear(std::clamp(value, 0.0f, 1.0f));
 }
 
-// Tries quantisers on a part of the pilot.
-class Trial {
- public:
-  Trial(const Fit& fit, std::span<const DirectionalLight> lights, Response response,
-        std::span<const float> planes, std::size_t pixels)
-      : response_(response), planeCount_(fit.basis.planes()), lights_(lights.size()) {
-    const std::size_t stride = std::max<std::size_t>(1, pixels / kTrialPixels);
-    for (std::size_t p = 0; p < pixels; p += stride) ++pixels_;
-    for (std::size_t k = 0; k < static_cast<std::size_t>(planeCount_); ++k) {
-      for (std::size_t p = 0; p < pixels; p += stride) values_.push_back(planes[k * pixels + p]);
-    }
-    std::vector<float> b(fit.basis.evaluateSize());
-    for (const DirectionalLight& light : lights) {
-      fit.basis.evaluate(light.toLight, b);
-      for (std::size_t c = 0; c < 3; ++c) {
-        for (std::size_t k = 0; k < static_cast<std::size_t>(planeCount_); ++k) {
-          weights_.push_back(b[3 * k + c]);
-        }
-        mean_.push_back(b[3 * static_cast<std::size_t>(planeCount_) + c]);
-      }
-    }
-    truth_ = shown(values_);
-  }
+std::vector<Ranges> rangesOf(std::span<const QuantiserTrial> trials, Curve curve) {
+  std::vector<Ranges> ranges;
+  for (const QuantiserTrial& trial : trials) ranges.push_back(trial.ranges(curve));
+  return ranges;
+}
 
-  // Mean over lights of the PSNR that quantising alone reaches.
-  double decibels(const CodingEntry& entry) const {
-    std::uint64_t clipped = 0;
-    const Size size{static_cast<int>(pixels_), 1};
-    const auto codes = quantise(entry, values_, size, clipped);
-    const auto trial = shown(dequantise(entry, codes, planeCount_));
-    double sum = 0;
-    const std::size_t perLight = 3 * pixels_;
-    for (std::size_t l = 0; l < lights_; ++l) {
-      double squares = 0;
-      for (std::size_t i = l * perLight; i < (l + 1) * perLight; ++i) {
-        const double d = static_cast<double>(trial[i]) - static_cast<double>(truth_[i]);
-        squares += d * d;
-      }
-      sum += std::min(99.0,
-                      -10 * std::log10(std::max(1e-12, squares / static_cast<double>(perLight))));
-    }
-    return sum / static_cast<double>(lights_);
+// All bases with the same bits, curve and step.
+QuantiserChoice tried(std::span<const QuantiserTrial> trials, const QuantiserRequest& request,
+                      Curve curve, int bits, double step, const std::vector<Ranges>& ranges,
+                      bool mayRepeat) {
+  QuantiserChoice choice;
+  for (std::size_t b = 0; b < trials.size(); ++b) {
+    choice.entries.push_back(entryFor(request, curve, bits, step, ranges[b], mayRepeat));
+    choice.decibels += trials[b].decibels(choice.entries.back());
   }
+  choice.decibels /= static_cast<double>(trials.size());
+  return choice;
+}
 
- private:
-  std::vector<float> shown(const std::vector<float>& values) const {
-    const auto rows = static_cast<int>(3 * lights_), columns = static_cast<int>(pixels_);
-    std::vector<float> out(3 * lights_ * pixels_);
-    cblas_sgemm(CblasRowMajor, CblasNoTrans, CblasNoTrans, rows, columns, planeCount_, 1.0f,
-                weights_.data(), planeCount_, values.data(), columns, 0.0f, out.data(), columns);
-    for (std::size_t row = 0; row < 3 * lights_; ++row) {
-      for (std::size_t p = 0; p < pixels_; ++p) {
-        float& value = out[row * pixels_ + p];
-        value = onScreen(response_, value + mean_[row]);
-      }
-    }
-    return out;
+// Whether no basis needs more stored planes than is worth while.
+bool isSlim(const QuantiserChoice& choice, const std::vector<Ranges>& ranges) {
+  for (std::size_t b = 0; b < ranges.size(); ++b) {
+    const auto most = static_cast<std::size_t>(kMaxSplit * static_cast<double>(ranges[b].size()));
+    if (choice.entries[b].functions.size() > most) return false;
   }
-
-  Response response_;
-  int planeCount_;
-  std::size_t lights_, pixels_ = 0;
-  std::vector<float> values_, weights_, mean_, truth_;
-};
+  return true;
+}
 
 // The coarsest step that reaches the target with as many stored planes as it takes (up to
 // kMaxSplit).
-QuantiserChoice splitRanges(const Trial& trial, const QuantiserRequest& request,
-                            const std::vector<Range>& ranges, int bits) {
-  const double single = longest(ranges) / ((1 << bits) - 1);
-  const auto most = static_cast<std::size_t>(kMaxSplit * static_cast<double>(ranges.size()));
+QuantiserChoice splitRanges(std::span<const QuantiserTrial> trials, const QuantiserRequest& request,
+                            const std::vector<Ranges>& ranges, int bits) {
   QuantiserChoice choice;
-  double step = single;
+  double step = longest(ranges) / ((1 << bits) - 1);
   for (int attempt = 0; attempt < 6; ++attempt) {
-    CodingEntry entry = entryFor(request, Curve::Linear, bits, step, ranges, true);
-    if (attempt > 0 && entry.functions.size() > most) return choice;
-    const double decibels = trial.decibels(entry);
-    if (attempt == 0 || decibels > choice.decibels) choice = {std::move(entry), decibels};
+    QuantiserChoice next = tried(trials, request, Curve::Linear, bits, step, ranges, true);
+    if (attempt > 0 && !isSlim(next, ranges)) return choice;
+    const double decibels = next.decibels;
+    if (attempt == 0 || decibels > choice.decibels) choice = std::move(next);
     if (decibels >= request.targetDecibels) return choice;
     // Uniform quantising: the error goes with the step.
     step *= std::pow(10.0, (decibels - request.targetDecibels - 0.2) / 20);
@@ -167,17 +112,89 @@ QuantiserChoice splitRanges(const Trial& trial, const QuantiserRequest& request,
 
 }  // namespace
 
-QuantiserChoice chooseQuantiser(const Fit& fit, std::span<const DirectionalLight> lights,
-                                Response response, std::span<const float> planes,
-                                std::size_t pixels, bool complete,
+QuantiserTrial::QuantiserTrial(const Fit& fit, std::span<const DirectionalLight> lights,
+                               Response response, std::span<const float> planes, std::size_t pixels,
+                               bool complete, std::size_t trials)
+    : response_(response),
+      planeCount_(fit.basis.planes()),
+      complete_(complete),
+      lights_(lights.size()) {
+  for (std::size_t begin = 0; begin < planes.size(); begin += pixels) {
+    const auto [low, high] = std::ranges::minmax(planes.subspan(begin, pixels));
+    low_.push_back(low);
+    high_.push_back(high);
+  }
+  const std::size_t most =
+      std::clamp(kTrialSamples / (lights_ * trials), kLeastTrialPixels, kTrialPixels);
+  const std::size_t stride = std::max<std::size_t>(1, pixels / most);
+  for (std::size_t p = 0; p < pixels; p += stride) ++pixels_;
+  for (std::size_t k = 0; k < static_cast<std::size_t>(planeCount_); ++k) {
+    for (std::size_t p = 0; p < pixels; p += stride) values_.push_back(planes[k * pixels + p]);
+  }
+  std::vector<float> b(fit.basis.evaluateSize());
+  for (const DirectionalLight& light : lights) {
+    fit.basis.evaluate(light.toLight, b);
+    for (std::size_t c = 0; c < 3; ++c) {
+      for (std::size_t k = 0; k < static_cast<std::size_t>(planeCount_); ++k) {
+        weights_.push_back(b[3 * k + c]);
+      }
+      mean_.push_back(b[3 * static_cast<std::size_t>(planeCount_) + c]);
+    }
+  }
+  truth_ = shown(values_);
+}
+
+std::vector<QuantiserTrial::Range> QuantiserTrial::ranges(Curve curve) const {
+  std::vector<Range> ranges;
+  for (std::size_t k = 0; k < low_.size(); ++k) {
+    Range range{curved(curve, static_cast<double>(low_[k])),
+                curved(curve, static_cast<double>(high_[k]))};
+    // A selection has not seen the extremes.
+    const double margin = complete_ ? 0 : 0.1 * range.length();
+    ranges.push_back({range.low - margin, range.high + margin});
+  }
+  return ranges;
+}
+
+double QuantiserTrial::decibels(const CodingEntry& entry) const {
+  std::uint64_t clipped = 0;
+  const Size size{static_cast<int>(pixels_), 1};
+  const auto codes = quantise(entry, values_, size, clipped);
+  const auto trial = shown(dequantise(entry, codes, planeCount_));
+  double sum = 0;
+  const std::size_t perLight = 3 * pixels_;
+  for (std::size_t l = 0; l < lights_; ++l) {
+    double squares = 0;
+    for (std::size_t i = l * perLight; i < (l + 1) * perLight; ++i) {
+      const double d = static_cast<double>(trial[i]) - static_cast<double>(truth_[i]);
+      squares += d * d;
+    }
+    sum +=
+        std::min(99.0, -10 * std::log10(std::max(1e-12, squares / static_cast<double>(perLight))));
+  }
+  return sum / static_cast<double>(lights_);
+}
+
+std::vector<float> QuantiserTrial::shown(const std::vector<float>& values) const {
+  const auto rows = static_cast<int>(3 * lights_), columns = static_cast<int>(pixels_);
+  std::vector<float> out(3 * lights_ * pixels_);
+  cblas_sgemm(CblasRowMajor, CblasNoTrans, CblasNoTrans, rows, columns, planeCount_, 1.0f,
+              weights_.data(), planeCount_, values.data(), columns, 0.0f, out.data(), columns);
+  for (std::size_t row = 0; row < 3 * lights_; ++row) {
+    for (std::size_t p = 0; p < pixels_; ++p) {
+      float& value = out[row * pixels_ + p];
+      value = onScreen(response_, value + mean_[row]);
+    }
+  }
+  return out;
+}
+
+QuantiserChoice chooseQuantiser(std::span<const QuantiserTrial> trials,
                                 const QuantiserRequest& request) {
-  const Trial trial(fit, lights, response, planes, pixels);
   const auto plain = [&](Curve curve, int bits) {
-    const auto ranges = rangesOf(planes, pixels, complete, curve);
+    const auto ranges = rangesOf(trials, curve);
     const double step = longest(ranges) / ((1 << bits) - 1);
-    CodingEntry entry = entryFor(request, curve, bits, step, ranges, false);
-    const double decibels = trial.decibels(entry);
-    return QuantiserChoice{std::move(entry), decibels};
+    return tried(trials, request, curve, bits, step, ranges, false);
   };
   if (request.bits) return plain(request.curve.value_or(Curve::Linear), *request.bits);
 
@@ -190,8 +207,7 @@ QuantiserChoice chooseQuantiser(const Fit& fit, std::span<const DirectionalLight
     return choice;
   }
   if (request.curve == Curve::SignedSqrt) return plain(Curve::SignedSqrt, 8);
-  QuantiserChoice choice =
-      splitRanges(trial, request, rangesOf(planes, pixels, complete, Curve::Linear), 8);
+  QuantiserChoice choice = splitRanges(trials, request, rangesOf(trials, Curve::Linear), 8);
   if (request.curve || choice.decibels >= request.targetDecibels) return choice;
   QuantiserChoice root = plain(Curve::SignedSqrt, 8);
   return root.decibels > choice.decibels ? root : choice;

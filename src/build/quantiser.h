@@ -20,15 +20,42 @@ struct QuantiserRequest {
 };
 
 struct QuantiserChoice {
-  CodingEntry entry;
-  double decibels = 0;  ///< reached on the pilot
+  std::vector<CodingEntry> entries;  ///< one a basis: all alike but for offsets and functions
+  double decibels = 0;               ///< reached on the pilots, the mean over the bases
 };
 
-/// Chooses bits, curve, step and offsets. `planes`: (basis planes) x `pixels` values of the pilot;
-/// `complete`: these are all the values there will be, so that the ranges need no margin.
-QuantiserChoice chooseQuantiser(const Fit& fit, std::span<const DirectionalLight> lights,
-                                Response response, std::span<const float> planes,
-                                std::size_t pixels, bool complete, const QuantiserRequest& request);
+/// What quantisers are tried on: the planes of one basis' pilot, or a part of them.
+class QuantiserTrial {
+ public:
+  /// `planes`: (basis planes) x `pixels` values; `complete`: these are all the values there will
+  /// be, so that the ranges need no margin. `trials`: how many there are beside each other, which
+  /// share the memory.
+  QuantiserTrial(const Fit& fit, std::span<const DirectionalLight> lights, Response response,
+                 std::span<const float> planes, std::size_t pixels, bool complete,
+                 std::size_t trials = 1);
+
+  struct Range {
+    double low = 0, high = 0;
+    double length() const { return high - low; }
+  };
+  /// Of each plane, passed through the curve.
+  std::vector<Range> ranges(Curve curve) const;
+  /// Mean over lights of the PSNR that quantising alone reaches on a screen.
+  double decibels(const CodingEntry& entry) const;
+
+ private:
+  std::vector<float> shown(const std::vector<float>& values) const;
+
+  Response response_;
+  int planeCount_;
+  bool complete_;
+  std::size_t lights_, pixels_ = 0;
+  std::vector<float> low_, high_, values_, weights_, mean_, truth_;
+};
+
+/// Chooses bits, curve and step for all bases together, and the offsets of each.
+QuantiserChoice chooseQuantiser(std::span<const QuantiserTrial> trials,
+                                const QuantiserRequest& request);
 
 /// Quantises plane values of one tile: `planes` is (basis planes) x tile.pixels(). Values outside
 /// the quantiser's range take its nearest end and are counted in `clipped`.

@@ -40,21 +40,27 @@ std::vector<float> makePlanes(std::size_t pixels) {
   return planes;
 }
 
+QuantiserChoice choose(Response response, std::span<const float> planes,
+                       const QuantiserRequest& request) {
+  const QuantiserTrial trial(makeFit(), makeLights(), response, planes, planes.size() / 2, true);
+  return chooseQuantiser({&trial, 1}, request);
+}
+
 constexpr std::size_t kPixels = 4000;
 const Size kSize{80, 50};
 
 TEST(Quantiser, ErrorIsAtMostHalfAStep) {
   const auto planes = makePlanes(kPixels);
   for (const Coding coding : {Coding::Avif, Coding::Jpeg, Coding::Png}) {
-    const auto choice = chooseQuantiser(makeFit(), makeLights(), Response::Display, planes, kPixels,
-                                        true, {.coding = coding, .bits = {}, .curve = {}});
-    ASSERT_EQ(choice.entry.curve, Curve::Linear);
+    const auto choice =
+        choose(Response::Display, planes, {.coding = coding, .bits = {}, .curve = {}});
+    ASSERT_EQ(choice.entries[0].curve, Curve::Linear);
     std::uint64_t clipped = 0;
-    const auto codes = quantise(choice.entry, planes, kSize, clipped);
+    const auto codes = quantise(choice.entries[0], planes, kSize, clipped);
     EXPECT_EQ(clipped, 0u);
-    const auto back = dequantise(choice.entry, codes, 2);
+    const auto back = dequantise(choice.entries[0], codes, 2);
     for (std::size_t i = 0; i < planes.size(); ++i) {
-      ASSERT_NEAR(back[i], planes[i], 0.501 * choice.entry.step) << i;
+      ASSERT_NEAR(back[i], planes[i], 0.501 * choice.entries[0].step) << i;
     }
   }
 }
@@ -62,25 +68,24 @@ TEST(Quantiser, ErrorIsAtMostHalfAStep) {
 TEST(Quantiser, ReachesItsTargetByStoringAWidePlaneTwice) {
   const auto planes = makePlanes(kPixels);
   const auto choice =
-      chooseQuantiser(makeFit(), makeLights(), Response::Display, planes, kPixels, true,
-                      {.coding = Coding::Avif, .bits = {}, .curve = {}, .targetDecibels = 66});
+      choose(Response::Display, planes,
+             {.coding = Coding::Avif, .bits = {}, .curve = {}, .targetDecibels = 66});
   EXPECT_GE(choice.decibels, 66);
   EXPECT_LE(choice.decibels, 70) << "bytes are spent on precision that nobody asked for";
-  EXPECT_EQ(choice.entry.bits, 8);
-  ASSERT_GT(choice.entry.functions.size(), 2u);
-  EXPECT_EQ(choice.entry.functions[1], 0);
-  EXPECT_EQ(choice.entry.offsets[1], 0);
+  EXPECT_EQ(choice.entries[0].bits, 8);
+  ASSERT_GT(choice.entries[0].functions.size(), 2u);
+  EXPECT_EQ(choice.entries[0].functions[1], 0);
+  EXPECT_EQ(choice.entries[0].offsets[1], 0);
 }
 
 TEST(Quantiser, GivenBitsAreKept) {
   const auto planes = makePlanes(kPixels);
   double before = 0;
   for (const int bits : {8, 10, 12, 16}) {
-    const auto choice =
-        chooseQuantiser(makeFit(), makeLights(), Response::Linear, planes, kPixels, true,
-                        {.coding = Coding::Png, .bits = bits, .curve = Curve::Linear});
-    EXPECT_EQ(choice.entry.bits, bits);
-    EXPECT_EQ(choice.entry.functions.size(), 2u);
+    const auto choice = choose(Response::Linear, planes,
+                               {.coding = Coding::Png, .bits = bits, .curve = Curve::Linear});
+    EXPECT_EQ(choice.entries[0].bits, bits);
+    EXPECT_EQ(choice.entries[0].functions.size(), 2u);
     EXPECT_GT(choice.decibels, before + 3) << bits;
     before = choice.decibels;
   }
@@ -88,37 +93,62 @@ TEST(Quantiser, GivenBitsAreKept) {
 
 TEST(Quantiser, SignedSqrtIsFinerNearZero) {
   const auto planes = makePlanes(kPixels);
-  const auto choice =
-      chooseQuantiser(makeFit(), makeLights(), Response::Linear, planes, kPixels, true,
-                      {.coding = Coding::Avif, .bits = 8, .curve = Curve::SignedSqrt});
+  const auto choice = choose(Response::Linear, planes,
+                             {.coding = Coding::Avif, .bits = 8, .curve = Curve::SignedSqrt});
   std::uint64_t clipped = 0;
-  const auto back = dequantise(choice.entry, quantise(choice.entry, planes, kSize, clipped), 2);
+  const auto back =
+      dequantise(choice.entries[0], quantise(choice.entries[0], planes, kSize, clipped), 2);
   for (std::size_t i = 0; i < planes.size(); ++i) {
     const double root = std::sqrt(std::abs(static_cast<double>(planes[i])));
-    const double bound = choice.entry.step * (root + choice.entry.step);
+    const double bound = choice.entries[0].step * (root + choice.entries[0].step);
     ASSERT_NEAR(back[i], planes[i], bound) << planes[i];
   }
 }
 
 TEST(Quantiser, ValuesOutsideAreCountedNotHidden) {
   const auto planes = makePlanes(kPixels);
-  const auto choice = chooseQuantiser(makeFit(), makeLights(), Response::Display, planes, kPixels,
-                                      true, {.coding = Coding::Avif, .bits = {}, .curve = {}});
+  const auto choice =
+      choose(Response::Display, planes, {.coding = Coding::Avif, .bits = {}, .curve = {}});
   std::uint64_t clipped = 0;
   const std::vector<float> wild{-3.0f, 0.5f, 7.0f, 0.0f};
-  const auto codes = quantise(choice.entry, wild, {2, 1}, clipped);
+  const auto codes = quantise(choice.entries[0], wild, {2, 1}, clipped);
   EXPECT_EQ(clipped, 2u);
-  const auto back = dequantise(choice.entry, codes, 2);
-  EXPECT_NEAR(back[0], choice.entry.offsets[0], 1e-6) << "the least code";
-  EXPECT_NEAR(back[2], choice.entry.offsets.back() + 255 * choice.entry.step, 1e-6)
+  const auto back = dequantise(choice.entries[0], codes, 2);
+  EXPECT_NEAR(back[0], choice.entries[0].offsets[0], 1e-6) << "the least code";
+  EXPECT_NEAR(back[2], choice.entries[0].offsets.back() + 255 * choice.entries[0].step, 1e-6)
       << "the greatest code";
+}
+
+TEST(Quantiser, BasesShareBitsCurveAndStep) {
+  const auto planes = makePlanes(kPixels);
+  std::vector<float> wide = planes;
+  for (float& value : wide) value *= 5;
+  const Fit fit = makeFit();
+  const auto lights = makeLights();
+  const std::vector<QuantiserTrial> trials{
+      {fit, lights, Response::Linear, planes, kPixels, true, 2},
+      {fit, lights, Response::Linear, wide, kPixels, true, 2}};
+  for (const Coding coding : {Coding::Avif, Coding::Png}) {
+    const auto choice = chooseQuantiser(trials, {.coding = coding, .bits = {}, .curve = {}});
+    ASSERT_EQ(choice.entries.size(), 2u);
+    const CodingEntry &a = choice.entries[0], &b = choice.entries[1];
+    EXPECT_EQ(a.bits, b.bits);
+    EXPECT_EQ(a.curve, b.curve);
+    EXPECT_EQ(a.step, b.step);
+    EXPECT_LE(a.functions.size(), b.functions.size());
+    std::uint64_t clipped = 0;
+    quantise(a, planes, kSize, clipped);
+    quantise(b, wide, kSize, clipped);
+    EXPECT_EQ(clipped, 0u) << "the step is wide enough for both";
+    EXPECT_NEAR(choice.decibels, (trials[0].decibels(a) + trials[1].decibels(b)) / 2, 1e-9);
+  }
 }
 
 TEST(Quantiser, ConstantPlanesNeedNoRange) {
   const std::vector<float> planes(2 * kPixels, 0.25f);
-  const auto choice = chooseQuantiser(makeFit(), makeLights(), Response::Display, planes, kPixels,
-                                      true, {.coding = Coding::Avif, .bits = {}, .curve = {}});
-  EXPECT_GT(choice.entry.step, 0);
+  const auto choice =
+      choose(Response::Display, planes, {.coding = Coding::Avif, .bits = {}, .curve = {}});
+  EXPECT_GT(choice.entries[0].step, 0);
   EXPECT_GE(choice.decibels, 50);
 }
 

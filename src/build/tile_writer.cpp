@@ -4,14 +4,24 @@
 #include <tbb/task_arena.h>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <vector>
 
 #include "build/fill.h"
 #include "build/quantiser.h"
-#include "illum/picture_io.h"
+#include "codec/depth_tile.h"
 
 namespace illum {
 namespace {
+
+// Rounded to the nearest step.
+std::uint16_t codeOf(const DepthRange& range, float depth) {
+  if (!std::isfinite(depth)) return kNoDepth;
+  const double extent = std::max(range.to - range.from, std::numeric_limits<double>::min());
+  const double steps = std::round((static_cast<double>(depth) - range.from) / extent * range.steps);
+  return static_cast<std::uint16_t>(std::clamp<double>(steps, 0, range.steps));
+}
 
 // The part of a row's array (count x row.size) that lies under a tile, as count x tile.
 std::vector<float> cut(std::span<const float> values, Size row, const Rectangle& tile) {
@@ -40,7 +50,9 @@ void TileWriter::write(const PlaneRow& row) {
         [&](int x) {
           writeTile(row, x);
           if (manifest_.mask) writeMask(row, x);
-          progress_.advance();
+          if (!row.depth.empty()) writeDepth(row, x);
+          if (row.level > 0) return;
+          progress_.advance(manifest_.grid(row.group).tileRectangle(0, x, row.row).pixels());
         },
         tbb::simple_partitioner());
   });
@@ -66,7 +78,17 @@ void TileWriter::writeMask(const PlaneRow& row, int x) {
   const auto coverage = cut(row.coverage, row.size, tile);
   BytePicture picture(tile.size(), 1);
   std::transform(coverage.begin(), coverage.end(), picture.samples().begin(), byteFromUnit);
-  writer_.add(name, encodePng(picture));
+  writer_.add(name, encodeMaskTile(picture));
+}
+
+void TileWriter::writeDepth(const PlaneRow& row, int x) {
+  const std::string name = depthTileName(manifest_, row.group, row.level, x, row.row);
+  if (writer_.has(name)) return;
+  const Rectangle tile = manifest_.grid(row.group).tileRectangle(row.level, x, row.row);
+  const DepthRange& range = *manifest_.groups[static_cast<std::size_t>(row.group)].depth;
+  std::vector<std::uint16_t> codes;
+  for (const float depth : cut(row.depth, row.size, tile)) codes.push_back(codeOf(range, depth));
+  writer_.add(name, encodeDepthTile(codes, tile.size(), range.steps));
 }
 
 std::uint64_t tileCodingBytes(const Manifest& manifest, std::span<const int> planesOfBases) {

@@ -16,7 +16,8 @@ namespace illum {
 
 class TileWriter {
  public:
-  /// `atOnce`: tiles coded side by side, which bounds memory.
+  /// `atOnce`: tiles coded side by side, which bounds memory. `progress` advances by the pixels of
+  /// level 0 that are coded.
   TileWriter(const Manifest& manifest, const EncodeSettings& settings, int atOnce,
              ObjectWriter& writer, Progress& progress)
       : manifest_(manifest),
@@ -33,6 +34,7 @@ class TileWriter {
  private:
   void writeTile(const PlaneRow& row, int x);
   void writeMask(const PlaneRow& row, int x);
+  void writeDepth(const PlaneRow& row, int x);
 
   const Manifest& manifest_;
   EncodeSettings settings_;

@@ -26,6 +26,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::string_view kFingerprintFile = "fingerprint.txt";
+constexpr std::string_view kJournalFile = "finished.txt";
 constexpr std::string_view kLockFile = "lock";
 constexpr std::string_view kEntriesFolder = "entries";
 constexpr std::string_view kScratchFolder = "scratch";
@@ -87,8 +88,9 @@ void checkTarget(const fs::path& out, bool force) {
 
 /// Whether every file in the partial folder is one that a writer makes.
 bool isPartialFolder(const fs::path& folder) {
-  constexpr std::string_view kOurs[] = {kFingerprintFile, kLockFile,   kEntriesFolder,
-                                        kScratchFolder,   kPackedFile, kReplacedFolder};
+  constexpr std::string_view kOurs[] = {kFingerprintFile, kJournalFile,   kLockFile,
+                                        kEntriesFolder,   kScratchFolder, kPackedFile,
+                                        kReplacedFolder};
   std::error_code error;
   for (fs::directory_iterator at(folder, error), end; !error && at != end; at.increment(error)) {
     const std::string name = at->path().filename().string();
@@ -97,20 +99,6 @@ bool isPartialFolder(const fs::path& folder) {
       return false;
   }
   return !error;
-}
-
-/// What a killed writer may have left beside finished entries: temporaries, which no entry is named
-/// like.
-void removeTemporaries(const fs::path& entries) {
-  std::vector<fs::path> strangers;
-  std::error_code error;
-  for (fs::recursive_directory_iterator at(entries, error), end; !error && at != end;
-       at.increment(error))
-    if (!at->is_directory(error) &&
-        !entryKeyOf(at->path().lexically_relative(entries).generic_string()))
-      strangers.push_back(at->path());
-  if (error) throw machineError(entries, "list", error);
-  for (const fs::path& file : strangers) removeTree(file);
 }
 
 std::string requiredText(const fs::path& entries) {
@@ -143,6 +131,7 @@ ObjectWriter::ObjectWriter(fs::path out, ObjectForm form, std::string fingerprin
   checkTarget(out_, force_);
   partial_ = out_;
   partial_ += ".partial";
+  journal_.emplace(partial_ / kJournalFile);
   createPartial(fingerprint, resume);
 }
 
@@ -159,11 +148,12 @@ void ObjectWriter::createPartial(const std::string& fingerprint, bool resume) {
       if (readTextFile(fingerprintFile, kMaxFingerprintBytes) != fingerprint)
         throw inputError(partial_, "what an earlier run with the same input and settings left",
                          "that of another input or other settings");
-      removeTemporaries(partial_ / kEntriesFolder);
+      journal_->removeDoubtful(partial_ / kEntriesFolder);
     } else {
       // The fingerprint goes first and comes last, so that entries never stand under a wrong one.
       removeTree(fingerprintFile);
       removeTree(partial_ / kEntriesFolder);
+      removeTree(partial_ / kJournalFile);
       createFolders(partial_ / kEntriesFolder);
       writeFileAtomically(fingerprintFile, fingerprint);
     }
@@ -205,6 +195,7 @@ void ObjectWriter::add(const std::string& entry, std::span<const std::byte> byte
   try {
     createFolders(file.parent_path());
     writeFileAtomically(file, bytes);
+    journal_->note(entry, bytes);
   } catch (const Error&) {
     keep_ = true;
     throw;

@@ -5,8 +5,11 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
+
+#include "encode/entry_journal.h"
 
 namespace illum {
 
@@ -30,7 +33,8 @@ class ObjectWriter {
   ObjectWriter(const ObjectWriter&) = delete;
   ObjectWriter& operator=(const ObjectWriter&) = delete;
 
-  bool has(const std::string& entry) const;  ///< finished already (by an earlier, killed run)
+  /// Finished already, by an earlier run too; what was damaged since is not.
+  bool has(const std::string& entry) const;
   /// Replaces the entry if it exists. A machine's fault here keeps the partial folder.
   void add(const std::string& entry, std::span<const std::byte> bytes);
   /// For signals and machine faults: what is done stays for --resume, if anything is.
@@ -52,6 +56,7 @@ class ObjectWriter {
   ObjectForm form_;
   bool force_, keep_ = false, finished_ = false;
   int lock_ = -1;
+  std::optional<EntryJournal> journal_;
 };
 
 }  // namespace illum

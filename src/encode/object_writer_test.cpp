@@ -187,6 +187,35 @@ TEST_P(BothForms, AWriterKilledAnywhereIsResumedToTheSameBytes) {
   }
 }
 
+TEST_P(BothForms, EntriesThatWereDamagedAreNotFinished) {
+  const auto entries = sampleEntries({});
+  const TemporaryFolder folder;
+  const fs::path out = folder / "a", kept = folder / "a.partial/entries";
+  {
+    ObjectWriter writer(out, GetParam(), "same", false, false);
+    for (const auto& [name, bytes] : entries) writer.add(name, bytes);
+    writer.keepPartial();
+  }
+  // Cut short, one bit turned, not noted because the machine stopped in between.
+  fs::resize_file(kept / entries[0].first, entries[0].second.size() - 1);
+  auto turned = entries[1].second;
+  turned[turned.size() / 2] ^= std::byte{1};
+  writeFileAtomically(kept / entries[1].first, turned);
+  const fs::path journal = folder / "a.partial/finished.txt";
+  fs::resize_file(journal, fs::file_size(journal) - 1);
+  {
+    ObjectWriter writer(out, GetParam(), "same", true, false);
+    for (std::size_t i = 0; i < entries.size(); ++i) {
+      const bool whole = i > 1 && i + 1 < entries.size();
+      EXPECT_EQ(writer.has(entries[i].first), whole) << entries[i].first;
+      if (!whole) writer.add(entries[i].first, entries[i].second);
+    }
+    writer.finish();
+  }
+  EXPECT_EQ(readFile(GetParam() == ObjectForm::Archive ? out : out / "index.bin", kLimit),
+            sampleBytes(GetParam()));
+}
+
 TEST_P(BothForms, ForceReplacesFilesAndObjects) {
   for (const auto old : {ObjectForm::Archive, ObjectForm::Folder}) {
     const TemporaryFolder folder;

@@ -80,6 +80,16 @@ void checkHeldOut(const Manifest& m) {
   }
 }
 
+using Visit = std::function<void(const std::string&)>;
+
+template <typename NameOfTile>
+void visitTiles(const Manifest& m, int group, NameOfTile nameOfTile, const Visit& visit) {
+  const TileGrid grid = m.grid(group);
+  for (int level = 0; level < grid.levels(); ++level)
+    for (int y = 0; y < grid.tilesDown(level); ++y)
+      for (int x = 0; x < grid.tilesAcross(level); ++x) visit(nameOfTile(m, group, level, x, y));
+}
+
 }  // namespace
 
 int TileGrid::levels() const {
@@ -139,20 +149,20 @@ std::string depthTileName(const Manifest&, int group, int level, int x, int y) {
   return tileEntryName("depth", group, level, x, y, ".png");
 }
 
-void forEachRequiredEntry(const Manifest& m, const std::function<void(const std::string&)>& visit) {
-  const auto visitTiles = [&](int group, auto nameOfTile) {
-    const TileGrid grid = m.grid(group);
-    for (int level = 0; level < grid.levels(); ++level)
-      for (int y = 0; y < grid.tilesDown(level); ++y)
-        for (int x = 0; x < grid.tilesAcross(level); ++x) visit(nameOfTile(m, group, level, x, y));
-  };
+void forEachTileOfGroup(const Manifest& m, int group, const Visit& visit) {
+  visitTiles(m, group, planeTileName, visit);
+  if (m.groups[static_cast<std::size_t>(group)].depth) visitTiles(m, group, depthTileName, visit);
+  if (m.mask) visitTiles(m, group, maskTileName, visit);
+}
+
+void forEachRequiredEntry(const Manifest& m, const Visit& visit) {
   const int groups = static_cast<int>(m.groups.size());
   visit(std::string(kManifestEntry));
   visit(std::string(kBasisEntry));
-  for (int g = 0; g < groups; ++g) visitTiles(g, planeTileName);
+  for (int g = 0; g < groups; ++g) visitTiles(m, g, planeTileName, visit);
   for (int g = 0; g < groups; ++g)
-    if (m.groups[static_cast<std::size_t>(g)].depth) visitTiles(g, depthTileName);
-  for (int g = 0; m.mask && g < groups; ++g) visitTiles(g, maskTileName);
+    if (m.groups[static_cast<std::size_t>(g)].depth) visitTiles(m, g, depthTileName, visit);
+  for (int g = 0; m.mask && g < groups; ++g) visitTiles(m, g, maskTileName, visit);
 }
 
 }  // namespace illum

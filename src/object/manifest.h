@@ -135,6 +135,10 @@ Manifest manifestFromText(std::string_view json, const std::string& source);
 /// What fields must be to each other, beyond each one's own limits. Throws Error naming the field.
 void checkConsistency(const Manifest& manifest);
 
+/// The entries of the planes, depths and masks of one group.
+void forEachTileOfGroup(const Manifest& manifest, int group,
+                        const std::function<void(const std::string&)>& visit);
+
 /// Every entry that an object with this manifest must have, in canonical order.
 void forEachRequiredEntry(const Manifest& manifest,
                           const std::function<void(const std::string&)>& visit);
