@@ -18,6 +18,11 @@ struct Listed {
 constexpr std::array kListed{
     Listed{{"box", "a box that casts its shadow on a plane"}, boxOnPlane},
     Listed{{"teapot", "the Utah teapot, glazed"}, utahTeapot},
+    Listed{{"bust", "a marble head and shoulders"}, sculptedBust},
+    Listed{{"cornell", "the Cornell box, open to the viewer: colours that walls give each other"},
+           cornellBox},
+    Listed{{"bear", "a bear with a fur of thousands of hairs"}, furryBear},
+    Listed{{"coin", "a worn silver coin, photographed from one place"}, wornCoin},
 };
 
 constexpr auto kScenes = [] {

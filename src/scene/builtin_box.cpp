@@ -24,13 +24,13 @@ PlannedScene boxOnPlane() {
 
   // Built lying in z = 0, seen from above; then leant back, so that the box's sides are seen too
   // and yet lights from all over the viewer's hemisphere reach the plane.
-  TriangleMesh ground = rectangleMesh(3.6, 3.6);
+  TriangleMesh ground = rectangleMesh(6, 6);
   ground.name = "plane";
   TriangleMesh cube = boxMesh({0.9, 0.7, 0.8});
   cube.name = "box";
   cube.material = 1;
   transform(cube, rotationAbout(Direction::fromVector({0, 0, 1}), 28 * kDegree));
-  transform(cube, {{1, 0, 0, 0, 1, 0, 0, 0, 1}, {0, 0.1, 0.4}});
+  transform(cube, {{1, 0, 0, 0, 1, 0, 0, 0, 1}, {0, -0.25, 0.4}});
   const RigidTransform leant = rotationAbout(Direction::fromVector({1, 0, 0}), -38 * kDegree);
   transform(ground, leant);
   transform(cube, leant);
@@ -43,8 +43,9 @@ PlannedScene boxOnPlane() {
   slab.size = Size{256, 256};
   CapturePlan plan;
   plan.views = {slab};
-  plan.lights.lights = PolarGrid{8, 16};
+  plan.lights.lights = PolarGrid{6, 16};
   plan.lights.radiusRadians = 0;
+  plan.samplesPerPixel = 8;
   return {std::move(scene), std::move(plan)};
 }
 

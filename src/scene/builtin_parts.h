@@ -13,5 +13,9 @@ struct PlannedScene {
 
 PlannedScene boxOnPlane();
 PlannedScene utahTeapot();
+PlannedScene sculptedBust();
+PlannedScene cornellBox();
+PlannedScene furryBear();
+PlannedScene wornCoin();
 
 }  // namespace illum

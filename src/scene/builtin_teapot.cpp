@@ -8,7 +8,7 @@ PlannedScene utahTeapot() {
   Scene scene;
   Material glaze;
   glaze.name = "glaze";
-  glaze.baseColour = {0.75f, 0.72f, 0.66f};
+  glaze.baseColour = {0.16f, 0.38f, 0.42f};
   glaze.roughness = 0.25f;
   scene.materials = {glaze};
 
@@ -16,10 +16,11 @@ PlannedScene utahTeapot() {
 
   SlabPlan slab;
   slab.toward = {0, 0.42, 1};
-  slab.longerSide = 256;
+  slab.size = Size{256, 256};
   CapturePlan plan;
   plan.views = {slab};
   plan.lights.lights = FibonacciGrid{96};
+  plan.samplesPerPixel = 12;
   return {std::move(scene), std::move(plan)};
 }
 
