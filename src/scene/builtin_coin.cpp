@@ -1,5 +1,6 @@
 // The case of a single view: a coin under a moving light, as in reflectance transformation imaging.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <utility>

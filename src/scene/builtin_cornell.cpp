@@ -73,8 +73,8 @@ PlannedScene cornellBox() {
   slab.size = Size{160, 160};
   CapturePlan plan;
   plan.views = {slab};
-  plan.lights.lights = FibonacciGrid{48};
-  plan.samplesPerPixel = 64;
+  plan.lights.lights = FibonacciGrid{40};
+  plan.samplesPerPixel = 48;
   plan.bounces = 2;
   return {std::move(scene), std::move(plan)};
 }

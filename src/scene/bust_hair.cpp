@@ -1,8 +1,8 @@
 #include <cmath>
 #include <numbers>
-#include <random>
 
 #include "scene/bust.h"
+#include "scene/random_numbers.h"
 #include "scene/signed_distance.h"
 
 namespace illum {
@@ -59,16 +59,12 @@ class Locks {
   }
 
  private:
-  double uniform(double low, double high) {
-    return low + (high - low) * static_cast<double>(random_() >> 11) * 0x1p-53;
-  }
-
   Strand lock(Vector3 direction) {
     constexpr int kSteps = 9;
-    const double step = uniform(0.06, 0.09);
-    const double swirl = uniform(-0.5, 0.5), curl = uniform(-1, 1) > 0 ? 1 : -1;
-    const double tightness = uniform(0.12, 0.36);
-    const double width = uniform(0.055, 0.08), rise = uniform(0.03, 0.12);
+    const double step = random_.uniform(0.06, 0.09);
+    const double swirl = random_.uniform(-0.5, 0.5), curl = random_.uniform(-1, 1) > 0 ? 1 : -1;
+    const double tightness = random_.uniform(0.12, 0.36);
+    const double width = random_.uniform(0.055, 0.08), rise = random_.uniform(0.03, 0.12);
     Strand strand;
     strand.outward = outwardAt(onScalp(direction, 0));
     strand.grooves = 0.008;
@@ -89,7 +85,7 @@ class Locks {
     return strand;
   }
 
-  std::mt19937_64 random_{1827};
+  RandomNumbers random_{1827};
 };
 
 }  // namespace

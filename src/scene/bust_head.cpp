@@ -93,7 +93,7 @@ double neck(Vector3 q, double d) {
 double headDistance(Vector3 p) {
   const Vector3 q{std::abs(p.x), p.y, p.z};
   double d = neck(q, skull(q));
-  if (p.z < 0.15) return ear(q, d);
+  if (p.z < 0.15) return ear(q, d);  // behind the face
   d = browAndHollows(q, d);
   d = mouth(q, d);
   d = nose(q, d);

@@ -9,9 +9,6 @@
 namespace illum {
 namespace {
 
-// The torso was modelled lower, under a longer neck.
-constexpr double kRaised = 0.2;
-
 /// Turned to its left and bent forward a little, about the middle of the neck.
 RigidTransform headFromBust() {
   const Vector3 pivot{0, -1.0, -0.25};
@@ -23,16 +20,15 @@ RigidTransform headFromBust() {
 
 }  // namespace
 
-double torsoDistance(Vector3 inBust) {
-  const Vector3 p = inBust - Vector3{0, kRaised, 0};
+double torsoDistance(Vector3 p) {
   const Vector3 q{std::abs(p.x), p.y, p.z};
-  double d = ellipsoidDistance(q, {0, -2.25, -0.40}, {1.08, 0.85, 0.55});
-  d = smoothUnion(d, rodDistance(q, {0.15, -1.52, -0.46}, {1.0, -1.93, -0.44}, 0.20, 0.33), 0.25);
-  d = smoothUnion(d, rodDistance(q, {0, -1.0, -0.28}, {0, -1.7, -0.42}, 0.40, 0.48), 0.15);
-  d = smoothUnion(d, ellipsoidDistance(q, {0, -2.12, 0.0}, {0.72, 0.42, 0.24}), 0.25);
-  d = smoothUnion(d, rodDistance(q, {0.08, -1.70, 0.03}, {0.80, -1.66, -0.30}, 0.05, 0.05), 0.10);
-  d = smoothUnion(d, rodDistance(q, {0.40, -0.62, -0.26}, {0.07, -1.67, 0.02}, 0.08, 0.05), 0.10);
-  return smoothIntersection(d, ellipsoidDistance(p, {0, -1.55, -0.35}, {1.30, 1.15, 1.0}), 0.05);
+  double d = ellipsoidDistance(q, {0, -2.05, -0.40}, {1.08, 0.85, 0.55});
+  d = smoothUnion(d, rodDistance(q, {0.15, -1.32, -0.46}, {1.0, -1.73, -0.44}, 0.20, 0.33), 0.25);
+  d = smoothUnion(d, rodDistance(q, {0, -0.80, -0.28}, {0, -1.50, -0.42}, 0.40, 0.48), 0.15);
+  d = smoothUnion(d, ellipsoidDistance(q, {0, -1.92, 0.0}, {0.72, 0.42, 0.24}), 0.25);
+  d = smoothUnion(d, rodDistance(q, {0.08, -1.50, 0.03}, {0.80, -1.46, -0.30}, 0.05, 0.05), 0.10);
+  d = smoothUnion(d, rodDistance(q, {0.40, -0.42, -0.26}, {0.07, -1.47, 0.02}, 0.08, 0.05), 0.10);
+  return smoothIntersection(d, ellipsoidDistance(p, {0, -1.35, -0.35}, {1.30, 1.15, 1.0}), 0.05);
 }
 
 std::vector<Strand> clothFolds() {
@@ -47,11 +43,11 @@ std::vector<Strand> clothFolds() {
       // From the left shoulder (+x) across the chest to below the right arm, hanging through.
       const double x = 0.95 - 1.95 * t - 0.25 * share * (1 - t);
       const double hang = std::sin(std::numbers::pi * t) * (0.22 + 0.30 * share);
-      const double y = -1.58 - 0.42 * t - hang - 0.16 * share + 0.03 * std::sin(7 * t + 2 * f);
+      const double y = -1.38 - 0.42 * t - hang - 0.16 * share + 0.03 * std::sin(7 * t + 2 * f);
       // Onto the chest: as far forward as it reaches there.
       double z = 0.9;
-      for (int k = 0; k < 40; ++k) z -= 0.7 * torsoDistance({x, y + kRaised, z});
-      fold.points.push_back({x, y + kRaised, std::max(z, -0.6)});
+      for (int k = 0; k < 40; ++k) z -= 0.7 * torsoDistance({x, y, z});
+      fold.points.push_back({x, y, std::max(z, -0.6)});
       fold.radii.push_back(0.064 + 0.014 * std::sin(2 * std::numbers::pi * t + 2 * f));
     }
     folds.push_back(fold);
@@ -61,7 +57,7 @@ std::vector<Strand> clothFolds() {
 
 double socleDistance(Vector3 p) {
   // A turned foot: neck, hollow and plinth by its profile.
-  const double y = p.y + 2.6 - kRaised;  // 0 where it meets the bust, falling
+  const double y = p.y + 2.4;  // 0 where it meets the bust, falling
   const double hollow = 0.30 + 0.32 * std::pow(std::clamp(-y / 0.42, 0.0, 1.0), 2.2);
   const double radius = y < -0.42 ? 0.66 : hollow;
   const double round = std::hypot(p.x, p.z + 0.30);

@@ -1,11 +1,10 @@
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <numbers>
-#include <random>
 
 #include "scene/bust.h"
 #include "scene/coin.h"
+#include "scene/random_numbers.h"
 #include "scene/rod_cloud.h"
 #include "scene/signed_distance.h"
 
@@ -81,111 +80,54 @@ void strike(HeightMap& map) {
   }
 }
 
-/// What years in purses do: ridges flatten, the field gets pits and scratches.
-void wear(HeightMap& map) {
+/// What years in purses do: ridges flatten, the field gets uneven and pitted.
+void flatten(HeightMap& map) {
   const HeightMap around = map.blurred(map.side() / 90);
-  std::mt19937_64 random(79);
-  const auto uniform = [&](double low, double high) {
-    return low + (high - low) * static_cast<double>(random() >> 11) * 0x1p-53;
-  };
   for (int row = 0; row < map.side(); ++row) {
     for (int column = 0; column < map.side(); ++column) {
       const double x = map.coordinate(column), y = map.coordinate(row);
       const double above = map.at(column, row) - around.at(column, row);
-      double height = map.at(column, row) - 0.35 * std::max(0.0, above - 0.004);
-      height += 0.0016 * valueNoise(x, y, 9, 1) + 0.0007 * valueNoise(x, y, 40, 2);
-      const double pits = valueNoise(x, y, 55, 3);
-      height -= 0.0025 * smoothstep(0.78, 0.95, pits);
-      map.at(column, row) = static_cast<float>(height);
+      const double worn = 0.35 * std::max(0.0, above - 0.004);
+      const double uneven = 0.0016 * valueNoise(x, y, 9, 1) + 0.0007 * valueNoise(x, y, 40, 2);
+      const double pits = 0.0025 * smoothstep(0.78, 0.95, valueNoise(x, y, 55, 3));
+      map.at(column, row) += static_cast<float>(uneven - worn - pits);
     }
   }
-  constexpr int kScratches = 220;
-  for (int i = 0; i < kScratches; ++i) {
-    const double x = uniform(-0.9, 0.9), y = uniform(-0.9, 0.9), angle = uniform(0, kPi);
-    const double length = uniform(0.03, 0.35), depth = uniform(0.0005, 0.0022);
-    const double bend = uniform(-0.6, 0.6);
+}
+
+class Scratches {
+ public:
+  void cutInto(HeightMap& map) {
+    constexpr int kScratches = 220;
+    for (int i = 0; i < kScratches; ++i) cutOne(map);
+  }
+
+ private:
+  /// An arc, deepest in its middle.
+  void cutOne(HeightMap& map) {
+    const double x = random_.uniform(-0.9, 0.9), y = random_.uniform(-0.9, 0.9),
+                 angle = random_.uniform(0, kPi);
+    const double length = random_.uniform(0.03, 0.35), depth = random_.uniform(0.0002, 0.0008);
+    const double bend = random_.uniform(-0.6, 0.6);
     for (double t = 0; t < length; t += 0.7 * map.spacing()) {
       const double a = angle + bend * t;
       const int column = static_cast<int>(std::lround((x + t * std::cos(a) + 1) / map.spacing()));
       const int row = static_cast<int>(std::lround((y + t * std::sin(a) + 1) / map.spacing()));
       if (column < 0 || row < 0 || column >= map.side() || row >= map.side()) continue;
-      const double deep = depth * std::sin(kPi * t / length);
-      map.at(column, row) =
-          std::min(map.at(column, row), static_cast<float>(around.at(column, row) + 0.03));
-      map.at(column, row) -= static_cast<float>(0.35 * deep);
+      map.at(column, row) -= static_cast<float>(depth * std::sin(kPi * t / length));
     }
   }
-}
 
-double lattice(std::int64_t x, std::int64_t y, unsigned seed) {
-  // Mixing as in splitmix64 (Steele, Lea, Flood 2014).
-  std::uint64_t z = static_cast<std::uint64_t>(x) * 0x9E3779B97F4A7C15u +
-                    static_cast<std::uint64_t>(y) * 0xC2B2AE3D27D4EB4Fu + seed;
-  z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9u;
-  z = (z ^ (z >> 27)) * 0x94D049BB133111EBu;
-  return static_cast<double>((z ^ (z >> 31)) >> 11) * 0x1p-52 - 1;
-}
+  RandomNumbers random_{79};
+};
 
 }  // namespace
-
-double valueNoise(double x, double y, double frequency, unsigned seed) {
-  const double fx = std::floor(x * frequency), fy = std::floor(y * frequency);
-  const double u = smoothstep(0, 1, x * frequency - fx), v = smoothstep(0, 1, y * frequency - fy);
-  const auto i = static_cast<std::int64_t>(fx), j = static_cast<std::int64_t>(fy);
-  const double low = std::lerp(lattice(i, j, seed), lattice(i + 1, j, seed), u);
-  const double high = std::lerp(lattice(i, j + 1, seed), lattice(i + 1, j + 1, seed), u);
-  return std::lerp(low, high, v);
-}
-
-HeightMap::HeightMap(int side)
-    : side_(side), values_(static_cast<std::size_t>(side) * static_cast<std::size_t>(side)) {}
-
-float& HeightMap::at(int column, int row) {
-  return values_[static_cast<std::size_t>(row) * static_cast<std::size_t>(side_) +
-                 static_cast<std::size_t>(column)];
-}
-float HeightMap::at(int column, int row) const {
-  return values_[static_cast<std::size_t>(row) * static_cast<std::size_t>(side_) +
-                 static_cast<std::size_t>(column)];
-}
-
-double HeightMap::value(double x, double y) const {
-  const double fx = std::clamp((x + 1) / spacing(), 0.0, side_ - 1.0);
-  const double fy = std::clamp((y + 1) / spacing(), 0.0, side_ - 1.0);
-  const int i = std::min(static_cast<int>(fx), side_ - 2);
-  const int j = std::min(static_cast<int>(fy), side_ - 2);
-  const double low = std::lerp(double{at(i, j)}, double{at(i + 1, j)}, fx - i);
-  const double high = std::lerp(double{at(i, j + 1)}, double{at(i + 1, j + 1)}, fx - i);
-  return std::lerp(low, high, fy - j);
-}
-
-HeightMap HeightMap::blurred(int reach) const {
-  return blurredOnce(reach).blurredOnce(reach);
-}
-
-HeightMap HeightMap::blurredOnce(int reach) const {
-  HeightMap rows(side_), both(side_);
-  const auto mean = [&](const auto& value) {
-    double sum = 0;
-    for (int k = -reach; k <= reach; ++k) sum += value(k);
-    return static_cast<float>(sum / (2 * reach + 1));
-  };
-  const auto inside = [&](int i) { return std::clamp(i, 0, side_ - 1); };
-  for (int row = 0; row < side_; ++row) {
-    for (int column = 0; column < side_; ++column)
-      rows.at(column, row) = mean([&](int k) { return at(inside(column + k), row); });
-  }
-  for (int row = 0; row < side_; ++row) {
-    for (int column = 0; column < side_; ++column)
-      both.at(column, row) = mean([&](int k) { return rows.at(column, inside(row + k)); });
-  }
-  return both;
-}
 
 HeightMap coinHeights(int side) {
   HeightMap map(side);
   strike(map);
-  wear(map);
+  flatten(map);
+  Scratches().cutInto(map);
   return map;
 }
 

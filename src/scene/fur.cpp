@@ -4,10 +4,10 @@
 #include <array>
 #include <cmath>
 #include <numbers>
-#include <random>
 #include <vector>
 
 #include "scene/hair_file.h"
+#include "scene/random_numbers.h"
 #include "scene/shapes.h"
 #include "scene/signed_distance.h"
 
@@ -54,12 +54,8 @@ class Groomer {
   }
 
  private:
-  double uniform(double low, double high) {
-    return low + (high - low) * static_cast<double>(random_() >> 11) * 0x1p-53;
-  }
-
   Vector3 onSphere() {
-    const double z = uniform(-1, 1), phi = uniform(0, 2 * kPi);
+    const double z = random_.uniform(-1, 1), phi = random_.uniform(0, 2 * kPi);
     const double across = std::sqrt(1 - z * z);
     return {across * std::cos(phi), across * std::sin(phi), z};
   }
@@ -71,7 +67,7 @@ class Groomer {
     for (;;) {
       const Vector3 s = onSphere();
       const Vector3 steep{s.x / r.x, s.y / r.y, s.z / r.z};
-      if (uniform(0, 1) > least * lengthOf(steep)) continue;
+      if (random_.uniform(0, 1) > least * lengthOf(steep)) continue;
       return {part.objectFromPart.point({r.x * s.x, r.y * s.y, r.z * s.z}),
               part.objectFromPart.vector(unit(steep))};
     }
@@ -84,7 +80,7 @@ class Groomer {
     Vector3 way =
         unit(root.normal + 0.22 * noise + 0.30 * tuft(root.position) + Vector3{0, -0.35, 0});
     if (dot(way, root.normal) < 0.35) way = unit(way + (0.6 - dot(way, root.normal)) * root.normal);
-    const double length = part.hairLength * uniform(0.65, 1.15);
+    const double length = part.hairLength * random_.uniform(0.65, 1.15);
     const double step = length * (1 + kSunk) / (kPoints - 1);
     std::array<Vector3, kPoints> points;
     points[0] = root.position - kSunk * length * way;
@@ -93,7 +89,7 @@ class Groomer {
       way = unit(way + Vector3{0, -0.22, 0} + 0.12 * noise);
     }
     addHair(curves, points, {kRootRadius, kTipRadius});
-    const auto shade = static_cast<float>(uniform(0.7, 1.15));
+    const auto shade = static_cast<float>(random_.uniform(0.7, 1.15));
     const auto channel = [&](float c) { return std::min(1.0f, shade * c); };
     curves.colours.push_back(
         {channel(part.colour.r), channel(part.colour.g), channel(part.colour.b)});
@@ -103,7 +99,7 @@ class Groomer {
   static constexpr double kRootRadius = 0.0042, kTipRadius = 0.0012;
 
   std::span<const FurryPart> parts_, bald_;
-  std::mt19937_64 random_;
+  RandomNumbers random_;
 };
 
 }  // namespace
