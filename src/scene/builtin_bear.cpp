@@ -105,10 +105,10 @@ PlannedScene furryBear() {
 
   SlabPlan slab;
   slab.toward = {0, 0.12, 1};
-  slab.longerSide = 256;
+  slab.longerSide = 224;
   CapturePlan plan;
   plan.views = {slab};
-  plan.lights.lights = FibonacciGrid{64};
+  plan.lights.lights = FibonacciGrid{48};
   return {std::move(scene), std::move(plan)};
 }
 
