@@ -136,6 +136,31 @@ def table_at(values, south, light):
     return (1 - share) * equator + share * south
 
 
+def mesh_at(data, light):
+    """The exact basis: the weight of every light's picture for a light from the unit vector `light`."""
+    assert data[:5] == b"ILBD\x01"
+    lights, closing = np.frombuffer(data, "<u4", 2, 8)
+    count = int(lights + closing)
+    sites = np.frombuffer(data, "<f8", 3 * count, 16).reshape(count, 3)
+    triangles = np.frombuffer(data, "<u2", offset=16 + 24 * count).reshape(-1, 3).astype(int)
+    shares = np.zeros(count)
+    nearest = np.linalg.norm(sites - light, axis=1)
+    if nearest.min() < 1e-6:
+        shares[nearest.argmin()] = 1
+    else:
+        # Barycentric coordinates in every triangle; the one that the light lies in has none below 0.
+        all_shares = np.linalg.solve(sites[triangles].transpose(0, 2, 1),
+                                     np.broadcast_to(light, (len(triangles), 3))[:, :, None])[:, :, 0]
+        inside = all_shares.min(axis=1).argmax()
+        shares[triangles[inside]] = all_shares[inside].clip(0) / all_shares[inside].clip(0).sum()
+    weights = shares[:lights].copy()
+    for site in range(lights, count):
+        around = {int(corner) for triangle in triangles if site in triangle for corner in triangle}
+        around = [corner for corner in around if corner < lights] or list(range(lights))
+        weights[around] += shares[site] / len(around)
+    return weights
+
+
 def layout(planes, width, height, split):
     """Cell size and number of columns of a tile's atlas."""
     cell_w, cell_h = -(-width // 8) * 8, -(-height // 8) * 8
@@ -213,7 +238,8 @@ def relight(path, light, index=0):
 
     basis = manifest["bases"][group["basis"]]
     first = basis["tableOffset"]
-    column = table_at(*read_table(archive.read("basis.bin")[first:first + basis["tableBytes"]]), light)
+    table = archive.read("basis.bin")[first:first + basis["tableBytes"]]
+    column = mesh_at(table, light) if basis["kind"] == "exact" else table_at(*read_table(table), light)
     if basis["kind"] == "full":
         b, mean = column[:-3].reshape(-1, 3), column[-3:]
     else:
@@ -226,7 +252,8 @@ def relight(path, light, index=0):
         codes = read_tile(archive.read(f"planes/{index}/0/{name}.png"), len(basis["offsets"]), w, h,
                           coding["bits"] > 8)
         s = np.array(basis["offsets"])[:, None, None] + coding["step"] * codes
-        plane = s if coding["curve"] == "linear" else s * np.abs(s)
+        plane = (codes.astype(np.uint16).view(np.float16) if coding["curve"] == "half" else
+                 s if coding["curve"] == "linear" else s * np.abs(s))
         colour = mean + np.einsum("khw,kc->hwc", plane, b[basis["functions"]])
         if manifest["response"] == "display":
             colour = np.clip(colour, 0, 1)

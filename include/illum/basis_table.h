@@ -8,6 +8,7 @@
 #include <array>
 #include <cstddef>
 #include <functional>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
@@ -101,26 +102,41 @@ class BasisTable {
 struct BasisColour {
   /// Separable: plane 3j+c has b = column j times colourMatrix column c; no mean.
   /// Full: columns 3k..3k+2 are b_k's RGB for plane k, and the last three columns are the mean m.
-  enum class Kind { Separable, Full } kind = Kind::Separable;
+  /// Exact: no table but a LightMesh; plane 3l+c is channel c under light l.
+  enum class Kind { Separable, Full, Exact } kind = Kind::Separable;
   /// Row-major 3x3, rgb = colourMatrix * (three planes' values). Separable only.
   std::array<double, 9> colourMatrix{1, 0, 0, 0, 1, 0, 0, 0, 1};
 };
+
+class LightMesh;  // src/basis/light_mesh.h
 
 /// The light basis of a group: b_k and m for K planes.
 class LightBasis {
  public:
   LightBasis() = default;
   LightBasis(BasisTable table, BasisColour colour);
+  /// The exact basis: the planes are the pictures under the mesh's lights themselves, between which
+  /// is interpolated; plane 3l+c is channel c of light l.
+  explicit LightBasis(std::shared_ptr<const LightMesh> mesh);
 
   int planes() const;
+  /// Null unless the basis is exact; then there is no table.
+  const LightMesh* mesh() const { return mesh_.get(); }
   const BasisTable& table() const { return table_; }
+  LightDomain domain() const { return mesh_ ? LightDomain::Sphere : table_.domain(); }
   const BasisColour& colour() const { return colour_; }
 
   /// out[3k+c] = b_k(d)'s channel c for k < planes(); out[3*planes()+c] = m(d)'s channel c.
   void evaluate(Direction d, std::span<float> out) const;
   std::size_t evaluateSize() const { return 3 * static_cast<std::size_t>(planes()) + 3; }
 
+  /// Its bytes in basis.bin.
+  std::vector<std::byte> encode() const;
+
  private:
+  void evaluateSeparable(Direction d, std::span<float> out) const;
+
+  std::shared_ptr<const LightMesh> mesh_;
   BasisTable table_;
   BasisColour colour_;
 };

@@ -14,10 +14,10 @@
 namespace illum {
 
 struct BuildOptions {
-  std::string basis = "learned";        ///< "learned", "sh", "hsh", "dct"
+  std::string basis = "learned";        ///< "learned", "sh", "hsh", "dct", "exact"
   int coefficients = 0;                 ///< per channel; 0: chosen
   int planes = 0;                       ///< scalar planes; 0: chosen
-  std::string coding = "avif";          ///< "avif", "jpeg", "png"
+  std::string coding;                   ///< "avif", "jpeg", "png"; empty: avif, of exact png
   int quality = -1;                     ///< 0-100; -1: the default
   int speed = -1;                       ///< of the AVIF encoder, 0-10; -1: the default
   std::optional<int> bits;              ///< 8, 10, 12, 16; unset: chosen

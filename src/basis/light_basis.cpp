@@ -1,6 +1,8 @@
+#include <algorithm>
 #include <cassert>
 #include <utility>
 
+#include "basis/light_mesh.h"
 #include "illum/basis_table.h"
 #include "illum/error.h"
 
@@ -16,16 +18,36 @@ LightBasis::LightBasis(BasisTable table, BasisColour colour)
   }
 }
 
+LightBasis::LightBasis(std::shared_ptr<const LightMesh> mesh) : mesh_(std::move(mesh)) {
+  colour_.kind = BasisColour::Kind::Exact;
+}
+
 int LightBasis::planes() const {
+  if (mesh_) return 3 * mesh_->lights();
   return colour_.kind == BasisColour::Kind::Full ? table_.columns() / 3 - 1 : 3 * table_.columns();
 }
 
 void LightBasis::evaluate(Direction d, std::span<float> out) const {
   assert(out.size() == evaluateSize());
-  if (colour_.kind == BasisColour::Kind::Full) {
+  if (mesh_) {
+    std::fill(out.begin(), out.end(), 0.0F);
+    mesh_->forEachWeight(d, [&](std::size_t light, double weight) {
+      for (std::size_t c = 0; c < 3; ++c) out[9 * light + 4 * c] += static_cast<float>(weight);
+    });
+  } else if (colour_.kind == BasisColour::Kind::Full) {
     table_.evaluate(d, out);
-    return;
+  } else {
+    evaluateSeparable(d, out);
   }
+}
+
+std::vector<std::byte> LightBasis::encode() const {
+  if (mesh_) return mesh_->encode();
+  BasisTable table = table_;
+  return table.encode();
+}
+
+void LightBasis::evaluateSeparable(Direction d, std::span<float> out) const {
   // Without a buffer: the J scalars go to the end of `out`, then block j of nine is written from
   // the front. Scalar j+1 lies at 8J + 4 + j >= 9j + 9, so no block overwrites one that is still
   // needed.

@@ -1,16 +1,32 @@
 #include "basis/light_sum.h"
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
 
 #include "basis/catmull_rom.h"
 #include "basis/chart.h"
+#include "basis/light_mesh.h"
 
 namespace illum {
 
 LightSum::LightSum(LightDomain domain, int resolution) : domain_(domain), resolution_(resolution) {
   const auto side = static_cast<std::size_t>(resolution) + 2;
   samples_.resize((domain == LightDomain::Sphere ? 2 : 1) * side * side);
+}
+
+LightSum::LightSum(const LightBasis& basis) : mesh_(basis.mesh()), domain_(basis.domain()) {
+  if (mesh_ == nullptr)
+    *this = LightSum(domain_, basis.table().resolution());
+  else
+    samples_.resize(static_cast<std::size_t>(mesh_->lights()));
+}
+
+LightSum LightSum::emptyCopy() const {
+  LightSum empty = *this;
+  std::fill(empty.samples_.begin(), empty.samples_.end(), Rgb());
+  empty.southPole_ = {};
+  return empty;
 }
 
 void LightSum::Rgb::add(double weight, LinearRgb light) {
@@ -37,6 +53,11 @@ void LightSum::spread(ChartPoint p, double share, LinearRgb intensity) {
 }
 
 void LightSum::add(Direction toLight, LinearRgb intensity) {
+  if (mesh_ != nullptr) {
+    mesh_->forEachWeight(
+        toLight, [&](std::size_t light, double weight) { samples_[light].add(weight, intensity); });
+    return;
+  }
   if (domain_ == LightDomain::Sphere || toLight.z() >= 0) {
     spread(chartFromDirection(toLight), 1, intensity);
     return;
@@ -53,7 +74,11 @@ void LightSum::add(const LightSum& other) {
 }
 
 std::vector<double> LightSum::weights(const LightBasis& basis) const {
-  const BasisTable& table = basis.table();
+  assert(basis.mesh() == mesh_);
+  return arranged(basis.colour(), mesh_ != nullptr ? samples_ : columnSums(basis.table()));
+}
+
+std::vector<LightSum::Rgb> LightSum::columnSums(const BasisTable& table) const {
   assert(table.resolution() == resolution_ && table.domain() == domain_);
   const auto columns = static_cast<std::size_t>(table.columns());
   std::vector<Rgb> sums(columns);
@@ -68,7 +93,7 @@ std::vector<double> LightSum::weights(const LightBasis& basis) const {
   if (domain_ == LightDomain::Hemisphere) {
     for (std::size_t c = 0; c < columns; ++c) sums[c].addScaled(table.southPole()[c], southPole_);
   }
-  return arranged(basis.colour(), sums);
+  return sums;
 }
 
 std::vector<double> LightSum::arranged(const BasisColour& colour, const std::vector<Rgb>& columns) {

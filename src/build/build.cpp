@@ -83,11 +83,11 @@ void checkOptions(const BuildOptions& options) {
     throw Error(Fault::Usage,
                 fmt::format("--bits: expected 8, 10, 12 or 16, found {}", *options.bits));
   }
-  const Coding coding = codingFromName(options.coding);
+  const Coding coding = codingOf(options);
   const int most = coding == Coding::Png ? 16 : coding == Coding::Avif ? 12 : 8;
   if (options.bits && *options.bits > most) {
     throw Error(Fault::Usage,
-                fmt::format("--bits {}: {} holds at most {}", *options.bits, options.coding, most));
+                fmt::format("--bits {}: {} holds at most {}", *options.bits, nameOf(coding), most));
   }
 }
 
@@ -97,8 +97,8 @@ std::string fingerprintOf(const Capture& capture, const BuildOptions& o) {
   return fmt::format(
       "illumigraph {}\nbasis {} {} {}\ncoding {} {} {} {} {}\nresponse {}\nholdout {}\n"
       "weights {} extension {} regularizer {} projection {}\ntile {}\n{}",
-      kVersion, o.basis, o.coefficients, o.planes, o.coding, o.quality, o.speed, o.bits.value_or(0),
-      o.curve.value_or("chosen"), o.response.value_or("chosen"), o.holdout,
+      kVersion, o.basis, o.coefficients, o.planes, nameOf(codingOf(o)), o.quality, o.speed,
+      o.bits.value_or(0), o.curve.value_or("chosen"), o.response.value_or("chosen"), o.holdout,
       flag(o.solidAngleWeights), flag(o.extension),
       o.regularizer ? fmt::format("{}", *o.regularizer) : "chosen", o.projection,
       o.tile.value_or(0), capture.fingerprint());
@@ -122,7 +122,7 @@ BasisEntry basisEntryOf(const Fit& fit, const CodingEntry& coding, int quality) 
   basis.name = fit.basisName;
   basis.coefficients = fit.coefficients > 0 ? fit.coefficients : fit.basis.planes();
   basis.colour = fit.basis.colour();
-  basis.domain = fit.basis.table().domain();
+  basis.domain = fit.basis.domain();
   basis.coding = coding;
   basis.coding.quality = quality;
   basis.mixing = fit.mixing;
@@ -203,8 +203,8 @@ void describe(const Plan& plan, const std::vector<View>& views, const EncodeSett
   report.choices.push_back(fmt::format(
       "{} bits, curve {}, step {:.6g}: {}{} stored planes for {} of the basis; quantisation alone "
       "{:.1f} dB",
-      coding.bits, coding.curve == Curve::Linear ? "linear" : "signedSqrt", coding.step,
-      plan.bases.size() > 1 ? "at most " : "", stored, planes, plan.quantiser.decibels));
+      coding.bits, nameOf(coding.curve), coding.step, plan.bases.size() > 1 ? "at most " : "",
+      stored, planes, plan.quantiser.decibels));
   manifest.provenance.emplace_back("quantiser", report.choices.back());
   manifest.provenance.emplace_back(
       "coding", fmt::format("{}, quality {}, speed {}", nameOf(coding.coding), settings.quality,
@@ -215,8 +215,7 @@ void describe(const Plan& plan, const std::vector<View>& views, const EncodeSett
 std::vector<std::byte> encodeTables(const Plan& plan, Manifest& manifest) {
   std::vector<std::byte> all;
   for (std::size_t b = 0; b < plan.bases.size(); ++b) {
-    BasisTable table = plan.bases[b].fit.basis.table();
-    const auto bytes = table.encode();
+    const auto bytes = plan.bases[b].fit.basis.encode();
     manifest.bases[b].tableOffset = all.size();
     manifest.bases[b].tableBytes = bytes.size();
     all.insert(all.end(), bytes.begin(), bytes.end());

@@ -13,8 +13,9 @@ BasisFamily familyFromName(const std::string& name) {
   if (name == "sh") return BasisFamily::SphericalHarmonics;
   if (name == "hsh") return BasisFamily::HemisphericalHarmonics;
   if (name == "dct") return BasisFamily::Cosine;
+  if (name == "exact") return BasisFamily::Exact;
   throw Error(Fault::Usage,
-              fmt::format("--basis: expected learned, sh, hsh or dct, found \"{}\"", name));
+              fmt::format("--basis: expected learned, sh, hsh, dct or exact, found \"{}\"", name));
 }
 
 Curve curveFromName(const std::string& name) {
@@ -38,7 +39,7 @@ FitOptions fitOptionsFrom(const BuildOptions& options) {
 
 QuantiserRequest quantiserRequestFrom(const BuildOptions& options) {
   QuantiserRequest request;
-  request.coding = codingFromName(options.coding);
+  request.coding = codingOf(options);
   request.bits = options.bits;
   if (options.curve) request.curve = curveFromName(*options.curve);
   return request;
@@ -58,6 +59,17 @@ QuantiserTrial trialOf(const PlannedBasis& basis, const Pilot& pilot, Response r
 }
 
 }  // namespace
+
+Coding codingOf(const BuildOptions& options) {
+  const bool exact = options.basis == "exact";
+  if (options.coding.empty()) return exact ? Coding::Png : Coding::Avif;
+  const Coding coding = codingFromName(options.coding);
+  if (exact && coding != Coding::Png)
+    throw Error(Fault::Usage, fmt::format("--basis exact: expected the lossless coding png, found "
+                                          "{}",
+                                          options.coding));
+  return coding;
+}
 
 LightChoice chooseLights(const Capture& capture, int holdout) {
   LightChoice choice;
@@ -99,6 +111,8 @@ Plan planObject(const Capture& capture, const LightChoice& lights, const BuildOp
                             kMaxBases, frames.size()));
   }
   Plan plan;
+  const bool exact = fitOptions.family == BasisFamily::Exact;
+  bool bytes = response == Response::Display;
   std::vector<QuantiserTrial> trials;
   for (const TurnedFrame& frame : frames) {
     PlannedBasis& basis = plan.bases.emplace_back();
@@ -111,10 +125,16 @@ Plan planObject(const Capture& capture, const LightChoice& lights, const BuildOp
                                   progress);
     progress.begin("choosing the light basis", 1);
     basis.fit = fitBasis(basis.directions, statisticsOf(pilot), fitOptions);
-    trials.push_back(trialOf(basis, pilot, response, frames.size()));
+    if (exact)
+      bytes = bytes && areWholeBytes(pilot.samples);
+    else
+      trials.push_back(trialOf(basis, pilot, response, frames.size()));
     progress.end();
   }
-  plan.quantiser = chooseQuantiser(trials, request);
+  // The same lights give as many planes in every frame.
+  plan.quantiser =
+      exact ? exactQuantiser(frames.size(), plan.bases[0].fit.basis.planes(), bytes, request)
+            : chooseQuantiser(trials, request);
   return plan;
 }
 

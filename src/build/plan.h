@@ -22,6 +22,10 @@ struct LightChoice {
 /// Throws Error (Fault::Usage) if nothing is left to fit.
 LightChoice chooseLights(const Capture& capture, int holdout);
 
+/// How tiles are coded: as asked for, else AVIF, or PNG for the exact basis. Throws Error
+/// (Fault::Usage).
+Coding codingOf(const BuildOptions& options);
+
 /// The basis of the views that are turned alike, and the operator that is computed once for them.
 struct PlannedBasis {
   TurnedFrame frame;

@@ -67,7 +67,7 @@ Manifest manifestFor(Size size, int tile, bool mask) {
 
 // Plane 0 is red, plane 1 is twice green plus one.
 PlaneOperator twoPlanes() {
-  return {.planes = 2, .lights = 1, .matrix = {1, 0, 0, 0, 2, 0}, .offset = {0, 1}};
+  return {.planes = 2, .lights = 1, .matrix = {1, 0, 0, 0, 2, 0}, .offset = {0, 1}, .picks = {}};
 }
 
 TEST(RowFitter, EveryTexelOfEveryRowIsFitted) {

@@ -1,5 +1,6 @@
 #include "build/quantiser.h"
 
+#include <Imath/half.h>
 #include <cblas.h>
 #include <fmt/format.h>
 
@@ -23,11 +24,10 @@ constexpr double kMaxSplit = 2.0;
 using Range = QuantiserTrial::Range;
 using Ranges = std::vector<Range>;
 
+constexpr double kLosslessDecibels = 99;  // as `evaluate` prints identical pictures
+
 double curved(Curve curve, double value) {
   return curve == Curve::Linear ? value : std::copysign(std::sqrt(std::abs(value)), value);
-}
-double uncurved(Curve curve, double s) {
-  return curve == Curve::Linear ? s : s * std::abs(s);
 }
 
 // The stored planes for a step: as many for each basis plane as its range needs.
@@ -108,6 +108,23 @@ QuantiserChoice splitRanges(std::span<const QuantiserTrial> trials, const Quanti
     step *= std::pow(10.0, (decibels - request.targetDecibels - 0.2) / 20);
   }
   return choice;
+}
+
+// The nearest halves, ties to even (IEEE 754); what is beyond the largest becomes that.
+PlaneCodes halves(const CodingEntry& entry, std::span<const float> planes, Size tile,
+                  std::uint64_t& clipped) {
+  constexpr float kLargestHalf = 65504;
+  const std::size_t pixels = tile.pixels(), stored = entry.functions.size();
+  PlaneCodes codes{static_cast<int>(stored), tile, std::vector<std::uint16_t>(stored * pixels)};
+  for (std::size_t p = 0; p < stored; ++p) {
+    const float* plane = planes.data() + static_cast<std::size_t>(entry.functions[p]) * pixels;
+    for (std::size_t i = 0; i < pixels; ++i) {
+      const float value = std::clamp(plane[i], -kLargestHalf, kLargestHalf);
+      if (value != plane[i]) ++clipped;
+      codes.values[p * pixels + i] = Imath::half(value).bits();
+    }
+  }
+  return codes;
 }
 
 }  // namespace
@@ -213,9 +230,36 @@ QuantiserChoice chooseQuantiser(std::span<const QuantiserTrial> trials,
   return root.decibels > choice.decibels ? root : choice;
 }
 
+bool areWholeBytes(std::span<const float> samples) {
+  return std::ranges::all_of(samples, [](float value) {
+    const float code = std::round(255 * value);
+    return code >= 0 && code <= 255 && std::abs(code / 255 - value) < 1e-6F;
+  });
+}
+
+QuantiserChoice exactQuantiser(std::size_t bases, int planes, bool bytes,
+                               const QuantiserRequest& request) {
+  if (request.bits || request.curve)
+    throw Error(Fault::Usage,
+                "--basis exact: its samples are kept as they are; expected neither --bits nor "
+                "--curve");
+  CodingEntry entry;
+  entry.coding = request.coding;
+  entry.bits = bytes ? 8 : 16;
+  entry.curve = bytes ? Curve::Linear : Curve::Half;
+  entry.step = bytes ? 1.0 / 255 : 1;
+  entry.offsets.assign(static_cast<std::size_t>(planes), 0);
+  for (int k = 0; k < planes; ++k) entry.functions.push_back(k);
+  QuantiserChoice choice;
+  choice.decibels = kLosslessDecibels;
+  choice.entries.assign(bases, entry);
+  return choice;
+}
+
 PlaneCodes quantise(const CodingEntry& entry, std::span<const float> planes, Size tile,
                     std::uint64_t& clipped) {
   const std::size_t pixels = tile.pixels(), stored = entry.functions.size();
+  if (entry.curve == Curve::Half) return halves(entry, planes, tile, clipped);
   const double top = (1 << entry.bits) - 1;
   PlaneCodes codes{static_cast<int>(stored), tile, std::vector<std::uint16_t>(stored * pixels)};
   for (std::size_t p = 0; p < stored;) {
@@ -244,10 +288,9 @@ std::vector<float> dequantise(const CodingEntry& entry, const PlaneCodes& codes,
   std::vector<float> planes(static_cast<std::size_t>(basisPlanes) * pixels);
   for (std::size_t p = 0; p < entry.functions.size(); ++p) {
     const auto function = static_cast<std::size_t>(entry.functions[p]);
-    for (std::size_t i = 0; i < pixels; ++i) {
-      const double s = entry.offsets[p] + entry.step * codes.values[p * pixels + i];
-      planes[function * pixels + i] += static_cast<float>(uncurved(entry.curve, s));
-    }
+    for (std::size_t i = 0; i < pixels; ++i)
+      planes[function * pixels + i] +=
+          static_cast<float>(valueOfCode(entry, p, codes.values[p * pixels + i]));
   }
   return planes;
 }

@@ -57,6 +57,16 @@ class QuantiserTrial {
 QuantiserChoice chooseQuantiser(std::span<const QuantiserTrial> trials,
                                 const QuantiserRequest& request);
 
+/// Whether all are 8-bit values divided by 255, as photographs' samples are.
+bool areWholeBytes(std::span<const float> samples);
+
+/// For `bases` exact bases of `planes` planes: what keeps samples to the last bit. Whole `bytes`
+/// stay codes of 8 bits; everything else becomes halves, which is exact for halves, and finer than
+/// the 8 bits of a screen for all. Throws Error (Fault::Usage) for bits or a curve that were asked
+/// for.
+QuantiserChoice exactQuantiser(std::size_t bases, int planes, bool bytes,
+                               const QuantiserRequest& request);
+
 /// Quantises plane values of one tile: `planes` is (basis planes) x tile.pixels(). Values outside
 /// the quantiser's range take its nearest end and are counted in `clipped`.
 PlaneCodes quantise(const CodingEntry& entry, std::span<const float> planes, Size tile,

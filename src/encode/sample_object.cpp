@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 
+#include "basis/light_mesh.h"
 #include "encode/encode_tile.h"
 #include "object/entry_name.h"
 
@@ -12,6 +14,7 @@ namespace {
 
 constexpr std::size_t kCoefficients = 4;
 constexpr std::size_t kFullPlanes = 5;
+constexpr int kSampleLights = 5;
 
 /// Four smooth functions: the first real spherical harmonics without their constants.
 std::array<double, kCoefficients> harmonics(Direction d) {
@@ -39,8 +42,30 @@ BasisTable fullTable(LightDomain domain) {
   return table;
 }
 
-BasisTable sampleTable(const SampleOptions& options) {
-  return options.fullBasis ? fullTable(options.domain) : separableTable(options.domain);
+/// Five lights on the axes, and the south pole, which stands for the four around it.
+LightMesh sampleMesh() {
+  return {{{0, 0, 1}, {1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}, {0, 0, -1}},
+          kSampleLights,
+          {{0, 1, 2}, {0, 2, 3}, {0, 3, 4}, {0, 4, 1}, {5, 2, 1}, {5, 3, 2}, {5, 4, 3}, {5, 1, 4}},
+          "sample"};
+}
+
+std::vector<std::byte> sampleTable(const SampleOptions& options) {
+  if (options.exact) return sampleMesh().encode();
+  BasisTable table = options.fullBasis ? fullTable(options.domain) : separableTable(options.domain);
+  return table.encode();
+}
+
+void makeExact(BasisEntry& basis) {
+  basis.name = "exact";
+  basis.coefficients = kSampleLights;
+  basis.colour.kind = BasisColour::Kind::Exact;
+  basis.domain = LightDomain::Sphere;
+  basis.coding.curve = Curve::Half;
+  basis.coding.step = 1;
+  basis.coding.offsets.assign(3 * kSampleLights, 0);
+  basis.coding.functions.resize(3 * kSampleLights);
+  std::iota(basis.coding.functions.begin(), basis.coding.functions.end(), 0);
 }
 
 std::vector<std::byte> bytesOf(const std::string& text) {
@@ -99,6 +124,7 @@ Manifest sampleManifest(const SampleOptions& options) {
     coding.offsets.push_back(-0.25);
     coding.functions.push_back(1);
   }
+  if (options.exact) makeExact(basis);
   for (int b = 0; b < options.bases; ++b) {
     m.bases.push_back(basis);
     for (double& offset : basis.coding.offsets) offset += 0.125;
@@ -124,7 +150,10 @@ PlaneCodes sampleCodes(const Manifest& manifest, int group, int level, int x, in
   const Rectangle area = manifest.grid(group).tileRectangle(level, x, y);
   PlaneCodes codes{coding.planes(), area.size(), {}};
   codes.values.reserve(static_cast<std::size_t>(codes.planes) * area.pixels());
-  const double scale = std::ldexp(1.0, level), largest = std::ldexp(1.0, coding.bits) - 1;
+  constexpr double kHalfOfOne = 0x3c00;
+  const double scale = std::ldexp(1.0, level);
+  const double largest =
+      coding.curve == Curve::Half ? kHalfOfOne : std::ldexp(1.0, coding.bits) - 1;
   for (int k = 0; k < codes.planes; ++k)
     for (int row = area.y; row < area.bottom(); ++row)
       for (int column = area.x; column < area.right(); ++column) {
@@ -161,7 +190,7 @@ std::vector<std::uint16_t> sampleDepth(const Manifest& manifest, int group, int 
 
 Entries sampleEntries(const SampleOptions& options) {
   Manifest manifest = sampleManifest(options);
-  const auto table = sampleTable(options).encode();
+  const auto table = sampleTable(options);
   for (BasisEntry& basis : manifest.bases) basis.tableBytes = table.size();
   Entries entries;
   entries.emplace_back(kManifestEntry, bytesOf(textOf(manifest)));

@@ -25,6 +25,7 @@ struct SampleOptions {
   Response response = Response::Linear;
   LightDomain domain = LightDomain::Hemisphere;
   bool fullBasis = false;   ///< b_k and a mean in RGB, instead of one scalar for three planes
+  bool exact = false;       ///< the lights themselves as the basis, halves as codes; bits: 16
   std::vector<View> views;  ///< empty: one photograph of `size`
   int bases = 1;            ///< of one table and different offsets; views take them in turn
   int depthSteps = 0;       ///< > 0: with depth

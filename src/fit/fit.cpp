@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "fit/dense.h"
+#include "fit/exact_basis.h"
 #include "fit/learned_basis.h"
 #include "fit/separable_fit.h"
 #include "illum/error.h"
@@ -43,6 +44,7 @@ Fit fitBasis(const std::vector<DirectionalLight>& lights, const SampleStatistics
   useOneBlasThread();
   std::vector<Direction> directions;
   for (const DirectionalLight& light : lights) directions.push_back(light.toLight);
+  if (options.family == BasisFamily::Exact) return fitExact(directions, statistics, options);
   return options.family == BasisFamily::Learned ? fitLearned(directions, statistics, options)
                                                 : fitSeparable(directions, statistics, options);
 }

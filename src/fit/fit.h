@@ -12,7 +12,7 @@
 
 namespace illum {
 
-enum class BasisFamily { SphericalHarmonics, HemisphericalHarmonics, Cosine, Learned };
+enum class BasisFamily { SphericalHarmonics, HemisphericalHarmonics, Cosine, Learned, Exact };
 
 struct FitOptions {
   BasisFamily family = BasisFamily::Learned;
@@ -41,6 +41,8 @@ struct PlaneOperator {
   int planes = 0, lights = 0;
   std::vector<float> matrix;  ///< planes x (3*lights)
   std::vector<float> offset;  ///< planes
+  /// Not empty: there is no matrix, plane k is row picks[k] of the samples to the last bit.
+  std::vector<int> picks;
   /// `samples` as Capture::read gives them; planes[k * pixels + p]. One thread; call it from tasks.
   /// Results do not depend on the thread, nor (tested) on how pixels are cut into blocks of
   /// multiples of 16.

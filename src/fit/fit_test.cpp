@@ -252,7 +252,7 @@ TEST(Fit, WhatCannotBeFittedIsAnError) {
 }
 
 TEST(PlaneOperator, IsAMatrixProductPlusAnOffset) {
-  PlaneOperator op{2, 1, {1, 2, 3, -1, 0, 4}, {0.5F, -0.5F}};
+  PlaneOperator op{2, 1, {1, 2, 3, -1, 0, 4}, {0.5F, -0.5F}, {}};
   const std::vector<float> samples{1, 10, 2, 20, 3, 30};  // three channels of two pixels
   std::vector<float> planes(4);
   op.apply(samples, 2, planes);

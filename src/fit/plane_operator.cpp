@@ -12,6 +12,13 @@ namespace illum {
 void PlaneOperator::apply(std::span<const float> samples, std::size_t pixels,
                           std::span<float> out) const {
   const auto rows = static_cast<std::size_t>(planes), inner = 3 * static_cast<std::size_t>(lights);
+  if (!picks.empty()) {
+    assert(picks.size() == rows && samples.size() == inner * pixels);
+    for (std::size_t k = 0; k < rows; ++k)
+      std::copy_n(samples.data() + static_cast<std::size_t>(picks[k]) * pixels, pixels,
+                  out.data() + k * pixels);
+    return;
+  }
   assert(matrix.size() == rows * inner && offset.size() == rows);
   assert(samples.size() == inner * pixels && out.size() == rows * pixels);
   assert(pixels <= static_cast<std::size_t>(std::numeric_limits<int>::max()));

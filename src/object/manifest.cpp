@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 #include "illum/error.h"
 #include "object/entry_name.h"
@@ -10,6 +12,18 @@
 
 namespace illum {
 namespace {
+
+// IEEE 754-2008, section 3.4, binary16.
+double valueOfHalf(std::uint16_t bits) {
+  constexpr int kMantissaBits = 10, kInfinite = 31, kBias = 15;
+  const int exponent = bits >> kMantissaBits & kInfinite, mantissa = bits & 1023;
+  const double sign = (bits & 0x8000) != 0 ? -1 : 1;
+  if (exponent == kInfinite)
+    return mantissa == 0 ? sign * std::numeric_limits<double>::infinity()
+                         : std::numeric_limits<double>::quiet_NaN();
+  if (exponent == 0) return sign * std::ldexp(mantissa, 1 - kBias - kMantissaBits);
+  return sign * std::ldexp(1024 + mantissa, exponent - kBias - kMantissaBits);
+}
 
 int dividedUp(int value, int divisor) {
   return value / divisor + (value % divisor != 0 ? 1 : 0);
@@ -21,8 +35,24 @@ Error wrong(std::string_view field, std::string_view expected, std::string_view 
 
 /// Planes that a basis describes.
 int functionsOf(const BasisEntry& basis) {
-  return basis.colour.kind == BasisColour::Kind::Separable ? 3 * basis.coefficients
-                                                           : basis.coefficients;
+  return basis.colour.kind == BasisColour::Kind::Full ? basis.coefficients : 3 * basis.coefficients;
+}
+
+// Half bit patterns leave nothing to scale.
+void checkHalves(const CodingEntry& c, const std::string& field) {
+  if (c.bits != 16) throw wrong("coding.bits", "16 with the curve half", std::to_string(c.bits));
+  if (c.step != 1) throw wrong("coding.step", "1 with the curve half", fmt::format("{}", c.step));
+  for (const double offset : c.offsets)
+    if (offset != 0) throw wrong(field, "0 with the curve half", fmt::format("{}", offset));
+}
+
+void checkExact(const BasisEntry& basis, std::size_t index) {
+  if (basis.colour.kind != BasisColour::Kind::Exact) return;
+  if (basis.domain != LightDomain::Sphere)
+    throw wrong(fmt::format("bases[{}].domain", index), "sphere with the kind exact", "hemisphere");
+  if (basis.colour.colourMatrix != BasisColour().colourMatrix)
+    throw wrong(fmt::format("bases[{}].colourMatrix", index), "the identity with the kind exact",
+                "another");
 }
 
 void checkCoding(const Manifest& m, std::size_t index) {
@@ -37,6 +67,7 @@ void checkCoding(const Manifest& m, std::size_t index) {
   if (c.functions.size() != c.offsets.size())
     throw wrong(field, fmt::format("{} values", c.offsets.size()),
                 std::to_string(c.functions.size()));
+  if (c.curve == Curve::Half) checkHalves(c, fmt::format("bases[{}].offsets", index));
   const int functions = functionsOf(m.bases[index]);
   for (const int function : c.functions)
     if (function >= functions)
@@ -131,10 +162,29 @@ void checkConsistency(const Manifest& m) {
   for (std::size_t b = 0; b < m.bases.size(); ++b) {
     checkCoding(m, b);
     checkMixing(m.bases[b], b);
+    checkExact(m.bases[b], b);
   }
   checkGroups(m);
   checkViews(m);
   checkHeldOut(m);
+}
+
+std::string_view nameOf(Curve curve) {
+  switch (curve) {
+    case Curve::Linear:
+      return "linear";
+    case Curve::SignedSqrt:
+      return "signedSqrt";
+    case Curve::Half:
+      return "half";
+  }
+  return "";
+}
+
+double valueOfCode(const CodingEntry& coding, std::size_t plane, std::uint16_t code) {
+  if (coding.curve == Curve::Half) return valueOfHalf(code);
+  const double s = coding.offsets[plane] + coding.step * code;
+  return coding.curve == Curve::Linear ? s : s * std::abs(s);
 }
 
 std::string planeTileName(const Manifest& m, int group, int level, int x, int y) {

@@ -29,7 +29,10 @@ enum class Response {
 enum class Curve {
   Linear,      ///< value = offset_k + step * code
   SignedSqrt,  ///< s = offset_k + step * code; value = sign(s) s^2
+  Half,        ///< the code is the 16 bits of an IEEE 754 half; offsets are 0, the step is 1
 };
+
+std::string_view nameOf(Curve curve);  ///< "linear", "signedSqrt", "half"
 
 /// How the planes of a basis are coded. Offsets and functions are the basis's own, all else is the
 /// same for the whole object.
@@ -50,8 +53,9 @@ struct CodingEntry {
 
 /// The basis of the groups whose frames are turned alike: lights are looked up in their frame.
 struct BasisEntry {
-  std::string name;      ///< "sh", "hsh", "dct", "learned": for people; readers need only the table
-  int coefficients = 0;  ///< per channel (separable), or scalar planes (full)
+  std::string name;  ///< "sh", "hsh", "dct", "learned": for people; readers need only the table
+  /// Per channel (separable), scalar planes (full), or lights (exact).
+  int coefficients = 0;
   BasisColour colour;
   LightDomain domain = LightDomain::Hemisphere;
   std::uint64_t tableOffset = 0, tableBytes = 0;  ///< where in basis.bin
@@ -115,7 +119,10 @@ struct Manifest {
   const CodingEntry& coding(int group = 0) const { return basisOf(group).coding; }
 };
 
-/// Limits of version 1.0, held on writing and on reading (docs/format.md, "object.json").
+/// The value of stored plane `plane` at a texel whose code is `code`.
+double valueOfCode(const CodingEntry& coding, std::size_t plane, std::uint16_t code);
+
+/// Limits of version 1, held on writing and on reading (docs/format.md, "object.json").
 inline constexpr int kMaxSide = 1 << 20;
 inline constexpr int kMinTile = 64, kMaxTile = 1360;
 inline constexpr int kMaxGroups = 65536, kMaxBases = 1024;

@@ -2,8 +2,8 @@
 // (json/field.h).
 //
 // To extend the format within version 1: add a field as `optional("name")` whose default means what
-// older objects meant, and raise kMinor. Anything that older readers must not ignore needs a new
-// major.
+// older objects meant, or a word to a `choice`, which older readers refuse by the field's name; and
+// raise kMinor. Anything else that older readers must not ignore needs a new major.
 #pragma once
 
 #include <cstddef>
@@ -18,7 +18,7 @@
 
 namespace illum::fields {
 
-inline constexpr int kMajor = 1, kMinor = 0;
+inline constexpr int kMajor = 1, kMinor = 1;
 inline constexpr std::string_view kFormat = "illum";
 inline constexpr std::size_t kMaxProvenance = 1000;
 
@@ -39,8 +39,9 @@ void describe(Visitor& v, BasisEntry& basis) {
   using Kind = BasisColour::Kind;
   v.text("name", basis.name);
   v.integer("coefficients", basis.coefficients, 1, kMaxPlanes);
-  v.choice("kind", basis.colour.kind,
-           Choices<Kind>{{Kind::Separable, "separable"}, {Kind::Full, "full"}});
+  v.choice(
+      "kind", basis.colour.kind,
+      Choices<Kind>{{Kind::Separable, "separable"}, {Kind::Full, "full"}, {Kind::Exact, "exact"}});
   v.numbers("colourMatrix", basis.colour.colourMatrix, -kHuge, kHuge);
   v.choice("domain", basis.domain,
            Choices<LightDomain>{{LightDomain::Hemisphere, "hemisphere"},
@@ -58,8 +59,10 @@ void describe(Visitor& v, CodingEntry& coding) {
   v.choice("name", coding.coding,
            Choices<Coding>{{Coding::Png, "png"}, {Coding::Avif, "avif"}, {Coding::Jpeg, "jpeg"}});
   v.integer("bits", coding.bits, 8, 16);
-  v.choice("curve", coding.curve,
-           Choices<Curve>{{Curve::Linear, "linear"}, {Curve::SignedSqrt, "signedSqrt"}});
+  v.choice(
+      "curve", coding.curve,
+      Choices<Curve>{
+          {Curve::Linear, "linear"}, {Curve::SignedSqrt, "signedSqrt"}, {Curve::Half, "half"}});
   v.number("step", coding.step, 1e-30, kHuge);
   v.integer(optional("quality"), coding.quality, 0, 100);
 }

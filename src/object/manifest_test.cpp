@@ -640,5 +640,62 @@ TEST(Manifest, HoldsAsManyViewsAsTheFormatAllows) {
   EXPECT_THROW(textOf(m), Error);
 }
 
+Manifest exactManifest() {
+  Manifest m = photographManifest();
+  BasisEntry exact;
+  exact.name = "exact";
+  exact.coefficients = 2;
+  exact.colour.kind = BasisColour::Kind::Exact;
+  exact.domain = LightDomain::Sphere;
+  exact.tableBytes = 12;
+  exact.coding = {Coding::Png, 16, Curve::Half, 1, {0, 0, 0, 0, 0, 0}, {0, 1, 2, 3, 4, 5}, 0};
+  m.bases = {exact};
+  m.groups[0].basis = 0;
+  return m;
+}
+
+// What older readers understand stays theirs; what they would misread says that it is newer.
+TEST(Manifest, StatesTheOldestVersionThatKnowsIt) {
+  EXPECT_THAT(textOf(photographManifest()), HasSubstr("\"version\": [1,0]"));
+  const std::string text = textOf(exactManifest());
+  EXPECT_THAT(text, HasSubstr("\"version\": [1,1]"));
+  const Manifest back = manifestFromText(text, "FILE");
+  EXPECT_EQ(back.bases[0].colour.kind, BasisColour::Kind::Exact);
+  EXPECT_EQ(back.coding().curve, Curve::Half);
+  EXPECT_EQ(back.coding().planes(), 6);
+}
+
+TEST(Manifest, RefusesHalvesAndExactBasesThatContradictThemselves) {
+  const json golden = json::parse(textOf(exactManifest()));
+  for (const BadValue& bad : std::vector<BadValue>{
+           {"/coding/bits", 12, "'coding.bits': expected 16 with the curve half, found 12"},
+           {"/coding/step", 2, "'coding.step': expected 1 with the curve half"},
+           {"/bases/0/offsets/3", 0.5, "'bases[0].offsets': expected 0 with the curve half"},
+           {"/bases/0/domain", "hemisphere", "'bases[0].domain': expected sphere"},
+           {"/bases/0/colourMatrix/1", 1, "'bases[0].colourMatrix': expected the identity"},
+           {"/bases/0/functions/5", 6, "'bases[0].functions': expected less than 6"},
+           {"/bases/0/kind", "exakt", "'separable', 'full', 'exact'"},
+           {"/coding/curve", "quarter", "'linear', 'signedSqrt', 'half'"}}) {
+    json root = golden;
+    root[json::json_pointer(bad.pointer)] = bad.value;
+    EXPECT_THAT(errorOf(root.dump()), HasSubstr(bad.complaint)) << bad.pointer;
+  }
+}
+
+TEST(Manifest, CodesMeanWhatTheirCurveSays) {
+  CodingEntry coding = exactManifest().coding();
+  EXPECT_EQ(valueOfCode(coding, 0, 0x3c00), 1);
+  EXPECT_EQ(valueOfCode(coding, 0, 0xc000), -2);
+  EXPECT_EQ(valueOfCode(coding, 0, 0x7bff), 65504);
+  EXPECT_EQ(valueOfCode(coding, 0, 0x0001), std::ldexp(1.0, -24));
+  EXPECT_TRUE(std::signbit(valueOfCode(coding, 0, 0x8000)));
+  EXPECT_TRUE(std::isinf(valueOfCode(coding, 0, 0xfc00)));
+  EXPECT_TRUE(std::isnan(valueOfCode(coding, 0, 0x7c01)));
+  coding = fullManifest().bases[0].coding;  // -1 + 0.1 q, squared with its sign
+  EXPECT_NEAR(valueOfCode(coding, 0, 5), -0.25, 1e-15);
+  coding.curve = Curve::Linear;
+  EXPECT_NEAR(valueOfCode(coding, 0, 5), -0.5, 1e-15);
+}
+
 }  // namespace
 }  // namespace illum

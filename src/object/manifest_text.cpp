@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <utility>
@@ -75,6 +76,16 @@ FileManifest fileManifestOf(const Manifest& manifest) {
   return file;
 }
 
+// The oldest version that knows everything in the manifest: what readers of 1.0 understand stays
+// theirs.
+int minorOf(const Manifest& manifest) {
+  const bool exact =
+      std::any_of(manifest.bases.begin(), manifest.bases.end(), [](const BasisEntry& basis) {
+        return basis.colour.kind == BasisColour::Kind::Exact || basis.coding.curve == Curve::Half;
+      });
+  return exact ? kMinor : 0;
+}
+
 Manifest readManifest(std::string_view text) {
   if (text.size() > kMaxManifestBytes)
     throw Error(Fault::Input,
@@ -94,7 +105,7 @@ std::string writeManifest(const Manifest& manifest) {
   FileManifest file = fileManifestOf(manifest);
   Writer writer{FieldPath()};
   writer.node()["format"] = kFormat;
-  writer.node()["version"] = {kMajor, kMinor};
+  writer.node()["version"] = {kMajor, minorOf(manifest)};
   describe(writer, file);
   checkConsistency(manifest);
   std::string text = jsonText(writer.node());

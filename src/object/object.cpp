@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "basis/light_mesh.h"
 #include "illum/error.h"
 #include "object/entry_name.h"
 #include "object/entry_source.h"
@@ -29,8 +30,15 @@ LightBasis readBasis(const BasisEntry& entry, std::span<const std::byte> tables,
                      fmt::format("a table at bytes {} to {}", entry.tableOffset,
                                  entry.tableOffset + entry.tableBytes),
                      fmt::format("{} bytes in all", tables.size()));
-  BasisTable table =
-      BasisTable::decode(tables.subspan(entry.tableOffset, entry.tableBytes), source);
+  const auto bytes = tables.subspan(entry.tableOffset, entry.tableBytes);
+  if (entry.colour.kind == BasisColour::Kind::Exact) {
+    auto mesh = std::make_shared<const LightMesh>(LightMesh::decode(bytes, source));
+    if (mesh->lights() != entry.coefficients)
+      throw inputError(source, fmt::format("{} lights", entry.coefficients),
+                       std::to_string(mesh->lights()));
+    return LightBasis(std::move(mesh));
+  }
+  BasisTable table = BasisTable::decode(bytes, source);
   const bool separable = entry.colour.kind == BasisColour::Kind::Separable;
   const int columns = separable ? entry.coefficients : 3 * entry.coefficients + 3;
   if (table.columns() != columns || table.domain() != entry.domain)

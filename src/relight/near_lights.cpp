@@ -12,18 +12,17 @@ NearLights::NearLights(const LightBasis& basis, const CodingEntry& coding, Respo
     : basis_(&basis), coding_(coding), response_(response), lights_(std::move(lights)) {}
 
 // The value of each basis function's plane, and 1 for the mean.
-void NearLights::planeValues(const PlaneCodes& codes, std::size_t texel,
+void NearLights::planeValues(const TilePlanes& codes, std::size_t texel,
                              std::span<float> values) const {
   std::fill(values.begin(), values.end(), 0.0f);
   for (std::size_t p = 0; p < coding_.functions.size(); ++p) {
-    const double s = coding_.offsets[p] + coding_.step * codes.plane(static_cast<int>(p))[texel];
-    const double value = coding_.curve == Curve::Linear ? s : s * std::abs(s);
+    const double value = valueOfCode(coding_, p, codes.code(p, texel));
     values[static_cast<std::size_t>(coding_.functions[p])] += static_cast<float>(value);
   }
   values.back() = 1;
 }
 
-void NearLights::addTo(std::span<float> rgb, const PlaneCodes& codes, std::size_t first,
+void NearLights::addTo(std::span<float> rgb, const TilePlanes& codes, std::size_t first,
                        std::span<const Vector3> points) const {
   std::vector<float> basis(basis_->evaluateSize()), values(basis.size() / 3);
   for (std::size_t i = 0; i < points.size(); ++i) {

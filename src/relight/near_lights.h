@@ -4,7 +4,6 @@
 #include <span>
 #include <vector>
 
-#include "codec/tile.h"
 #include "illum/lighting.h"
 #include "relight/weighted_sum.h"
 
@@ -22,11 +21,11 @@ class NearLights {
 
   /// Adds what the lights give to texels first, first + 1, ... of a tile, which lie at `points` of
   /// the group's frame, to their linear RGB.
-  void addTo(std::span<float> rgb, const PlaneCodes& codes, std::size_t first,
+  void addTo(std::span<float> rgb, const TilePlanes& codes, std::size_t first,
              std::span<const Vector3> points) const;
 
  private:
-  void planeValues(const PlaneCodes& codes, std::size_t texel, std::span<float> values) const;
+  void planeValues(const TilePlanes& codes, std::size_t texel, std::span<float> values) const;
 
   const LightBasis* basis_ = nullptr;
   CodingEntry coding_;

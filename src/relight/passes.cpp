@@ -22,7 +22,7 @@ constexpr int kRegions = 256;
 
 void addEnvironment(LightSum& sum, const Environment& environment) {
   const Size size = environment.size();
-  std::vector<LightSum> parts(kBands, LightSum(sum.domain(), sum.resolution()));
+  std::vector<LightSum> parts(kBands, sum.emptyCopy());
   tbb::parallel_for(0, kBands, [&](int band) {
     const auto edge = [&](int b) {
       return static_cast<int>(std::int64_t{b} * size.height / kBands);
@@ -42,7 +42,7 @@ Passes::Passes(const LightBasis& basis, const CodingEntry& coding, Response resp
                std::span<const DirectionalLight> lights, std::span<const Environment> environments)
     : coding_(coding), response_(response) {
   if (response == Response::Linear) {
-    LightSum sum(basis.table().domain(), basis.table().resolution());
+    LightSum sum(basis);
     for (const DirectionalLight& light : lights) sum.add(light.toLight, light.intensity);
     for (const Environment& environment : environments) addEnvironment(sum, environment);
     passes_.push_back({foldWeights(sum.weights(basis), coding), {}});
@@ -56,7 +56,7 @@ Passes::Passes(const LightBasis& basis, const CodingEntry& coding, Response resp
   }
 }
 
-void Passes::relight(const PlaneCodes& codes, std::size_t first, std::span<float> rgb,
+void Passes::relight(const TilePlanes& codes, std::size_t first, std::span<float> rgb,
                      std::vector<float>& scratch) const {
   if (response_ == Response::Linear && !passes_.empty()) {
     weightedSum(codes, coding_, passes_.front().weights, first, rgb);

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "basis/light_sum.h"
-#include "codec/tile.h"
 #include "illum/lighting.h"
 #include "relight/weighted_sum.h"
 
@@ -28,7 +27,7 @@ class Passes {
 
   /// Linear RGB of rgb.size() / 3 texels of a tile from `first` on. `scratch` is used again from
   /// call to call.
-  void relight(const PlaneCodes& codes, std::size_t first, std::span<float> rgb,
+  void relight(const TilePlanes& codes, std::size_t first, std::span<float> rgb,
                std::vector<float>& scratch) const;
 
  private:

@@ -2,16 +2,11 @@
 
 #include <utility>
 
+#include "object/manifest.h"
+
 namespace illum {
-namespace {
 
-std::uint64_t bytesOf(const PlaneCodes& codes) {
-  return codes.values.size() * sizeof(codes.values[0]);
-}
-
-}  // namespace
-
-std::shared_ptr<const PlaneCodes> TileCache::planes(const TileKey& key) {
+std::shared_ptr<const TilePlanes> TileCache::planes(const TileKey& key) {
   {
     const std::scoped_lock lock(mutex_);
     if (const auto found = entries_.find(key); found != entries_.end()) {
@@ -20,18 +15,19 @@ std::shared_ptr<const PlaneCodes> TileCache::planes(const TileKey& key) {
     }
   }
   auto codes =
-      std::make_shared<const PlaneCodes>(object_.planeTile(key.group, key.level, key.x, key.y));
+      std::make_shared<const TilePlanes>(object_.planeTile(key.group, key.level, key.x, key.y),
+                                         object_.manifest().coding(key.group).bits);
   keep(key, codes);
   return codes;
 }
 
-void TileCache::keep(const TileKey& key, const std::shared_ptr<const PlaneCodes>& codes) {
+void TileCache::keep(const TileKey& key, const std::shared_ptr<const TilePlanes>& codes) {
   const std::scoped_lock lock(mutex_);
-  if (entries_.contains(key) || bytesOf(*codes) > memoryBytes_) return;
-  usedBytes_ += bytesOf(*codes);
+  if (entries_.contains(key) || codes->memoryBytes() > memoryBytes_) return;
+  usedBytes_ += codes->memoryBytes();
   while (usedBytes_ > memoryBytes_) {
     const auto oldest = entries_.find(uses_.back());
-    usedBytes_ -= bytesOf(*oldest->second.codes);
+    usedBytes_ -= oldest->second.codes->memoryBytes();
     entries_.erase(oldest);
     uses_.pop_back();
   }

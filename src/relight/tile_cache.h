@@ -8,8 +8,8 @@
 #include <mutex>
 #include <tuple>
 
-#include "codec/tile.h"
 #include "illum/object.h"
+#include "relight/tile_planes.h"
 
 namespace illum {
 
@@ -26,16 +26,16 @@ class TileCache {
       : object_(std::move(object)), memoryBytes_(memoryBytes) {}
 
   /// The codes, decoded now or earlier. Two threads that miss at once may both decode.
-  std::shared_ptr<const PlaneCodes> planes(const TileKey& key);
+  std::shared_ptr<const TilePlanes> planes(const TileKey& key);
 
   const Object& object() const { return object_; }
 
  private:
   struct Entry {
-    std::shared_ptr<const PlaneCodes> codes;
+    std::shared_ptr<const TilePlanes> codes;
     std::list<TileKey>::iterator use;
   };
-  void keep(const TileKey& key, const std::shared_ptr<const PlaneCodes>& codes);
+  void keep(const TileKey& key, const std::shared_ptr<const TilePlanes>& codes);
 
   Object object_;
   std::uint64_t memoryBytes_, usedBytes_ = 0;

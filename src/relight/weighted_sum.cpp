@@ -9,57 +9,114 @@
 namespace illum {
 namespace {
 
-// Texels worked on at a time: three accumulators of this length stay in the first-level cache while
-// all planes pass by.
-constexpr std::size_t kBlock = 1024;
+using Rgb = std::array<double, 3>;
 
-struct Accumulator {
-  std::array<std::array<float, kBlock>, 3> channel;
-
-  void add(const float* values, std::size_t count, const std::array<float, 3>& weight) {
-    for (std::size_t c = 0; c < 3; ++c) {
-      float* sum = channel[c].data();
-      const float w = weight[c];
-      for (std::size_t i = 0; i < count; ++i) sum[i] += w * values[i];
-    }
-  }
+struct PlaneColour {
+  std::size_t plane, group;  // planes k, k + 3, … are one group
+  Rgb weight;
 };
 
-// What the weights of foldWeights are to be multiplied by.
-void planeValues(const std::uint16_t* codes, std::size_t count, const CodingEntry& coding,
-                 std::size_t plane, float* values) {
-  if (coding.curve == Curve::Linear) {
-    for (std::size_t i = 0; i < count; ++i) values[i] = static_cast<float>(codes[i]);
-    return;
+// Weights that single precision would not tell from multiples of one colour are.
+constexpr double kSameColour = 4e-7;
+
+std::size_t largestChannel(const Rgb& weight) {
+  const auto smaller = [](double a, double b) { return std::abs(a) < std::abs(b); };
+  return static_cast<std::size_t>(std::max_element(weight.begin(), weight.end(), smaller) -
+                                  weight.begin());
+}
+
+// The colour of which all weights of a group are multiples, 1 in its largest channel; false if
+// there is none.
+bool commonColour(const std::vector<PlaneColour>& planes, std::size_t group, Rgb& colour,
+                  std::size_t& channel) {
+  const PlaneColour* strongest = nullptr;
+  for (const PlaneColour& plane : planes) {
+    if (plane.group != group) continue;
+    if (strongest == nullptr || std::abs(plane.weight[largestChannel(plane.weight)]) >
+                                    std::abs(strongest->weight[channel])) {
+      strongest = &plane;
+      channel = largestChannel(plane.weight);
+    }
   }
-  const auto step = static_cast<float>(coding.step);
-  const auto offset = static_cast<float>(coding.offsets[plane]);
-  for (std::size_t i = 0; i < count; ++i) {
-    const float s = offset + step * static_cast<float>(codes[i]);
-    values[i] = s * std::abs(s);
+  colour = {0, 0, 0};
+  if (strongest == nullptr) return true;
+  for (std::size_t c = 0; c < 3; ++c) colour[c] = strongest->weight[c] / strongest->weight[channel];
+  return std::all_of(planes.begin(), planes.end(), [&](const PlaneColour& plane) {
+    const double multiple = plane.weight[channel];
+    for (std::size_t c = 0; c < 3 && plane.group == group; ++c) {
+      if (!(std::abs(plane.weight[c] - multiple * colour[c]) <= kSameColour * std::abs(multiple)))
+        return false;
+    }
+    return true;
+  });
+}
+
+float offsetOf(const CodingEntry& coding, std::size_t plane) {
+  return static_cast<float>(coding.offsets[plane]);
+}
+
+bool foldSeparable(const std::vector<PlaneColour>& planes, const CodingEntry& coding,
+                   FoldedWeights& folded) {
+  std::array<std::size_t, 3> channels{};
+  for (std::size_t group = 0; group < 3; ++group) {
+    Rgb colour{};
+    if (!commonColour(planes, group, colour, channels[group])) return false;
+    for (std::size_t c = 0; c < 3; ++c) folded.colours[group][c] = static_cast<float>(colour[c]);
   }
+  for (const PlaneColour& p : planes) {
+    const auto multiple = static_cast<float>(p.weight[channels[p.group]]);
+    folded.separable[p.group].push_back(
+        {static_cast<std::uint32_t>(p.plane), offsetOf(coding, p.plane), {multiple}});
+  }
+  return true;
+}
+
+void foldFull(const std::vector<PlaneColour>& planes, const CodingEntry& coding,
+              FoldedWeights& folded) {
+  for (const PlaneColour& p : planes) {
+    WeightedPlane<3> weighted{static_cast<std::uint32_t>(p.plane), offsetOf(coding, p.plane), {}};
+    for (std::size_t c = 0; c < 3; ++c) weighted.weight[c] = static_cast<float>(p.weight[c]);
+    folded.planes.push_back(weighted);
+  }
+}
+
+CodeRows rowsFrom(const TilePlanes& planes, const CodingEntry& coding, std::size_t texel) {
+  CodeRows rows;
+  rows.stride = planes.tile().pixels();
+  rows.step = static_cast<float>(coding.step);
+  rows.meaning = coding.curve == Curve::Half         ? CodeMeaning::Half
+                 : coding.curve == Curve::SignedSqrt ? CodeMeaning::SignedSqrt
+                                                     : CodeMeaning::Number;
+  if (planes.inBytes())
+    rows.bytes = planes.bytes() + texel;
+  else
+    rows.words = planes.words() + texel;
+  return rows;
 }
 
 }  // namespace
 
 FoldedWeights foldWeights(std::span<const double> basisValues, const CodingEntry& coding) {
   FoldedWeights folded;
-  folded.perPlane.resize(coding.functions.size());
+  const bool linear = coding.curve == Curve::Linear;
   const auto mean = basisValues.last(3);
-  std::array<double, 3> constant{mean[0], mean[1], mean[2]};
+  Rgb constant{mean[0], mean[1], mean[2]};
+  std::vector<PlaneColour> planes;
   for (std::size_t p = 0; p < coding.functions.size(); ++p) {
     const auto function = static_cast<std::size_t>(coding.functions[p]);
+    PlaneColour plane{p, function % 3, {}};
     for (std::size_t c = 0; c < 3; ++c) {
       const double b = basisValues[3 * function + c];
-      if (coding.curve == Curve::Linear) {
-        folded.perPlane[p][c] = static_cast<float>(b * coding.step);
-        constant[c] += b * coding.offsets[p];
-      } else {
-        folded.perPlane[p][c] = static_cast<float>(b);
-      }
+      plane.weight[c] = linear ? b * coding.step : b;
+      if (linear) constant[c] += b * coding.offsets[p];
     }
+    if (plane.weight != Rgb{0, 0, 0}) planes.push_back(plane);
   }
-  for (std::size_t c = 0; c < 3; ++c) folded.constant[c] = static_cast<float>(constant[c]);
+  folded.isSeparable = foldSeparable(planes, coding, folded);
+  if (!folded.isSeparable) foldFull(planes, coding, folded);
+  // -0 is what changes no sum, not even one of -0: a picture alone comes back to the last bit.
+  for (std::size_t c = 0; c < 3; ++c)
+    folded.constant[c] = constant[c] == 0 ? -0.0F : static_cast<float>(constant[c]);
   return folded;
 }
 
@@ -69,21 +126,21 @@ FoldedWeights foldWeights(const LightBasis& basis, const CodingEntry& coding, Di
   return foldWeights(std::vector<double>(values.begin(), values.end()), coding);
 }
 
-void weightedSum(const PlaneCodes& codes, const CodingEntry& coding, const FoldedWeights& weights,
+void weightedSum(const TilePlanes& planes, const CodingEntry& coding, const FoldedWeights& weights,
                  std::size_t first, std::span<float> rgb) {
-  Accumulator sums;
-  std::array<float, kBlock> values;
+  alignas(64) std::array<SumBlock, 3> blocks;
+  const std::array<SumBlock*, 3> sums{&blocks[0], &blocks[1], &blocks[2]};
   const std::size_t texels = rgb.size() / 3;
-  for (std::size_t begin = 0; begin < texels; begin += kBlock) {
-    const std::size_t count = std::min(kBlock, texels - begin);
-    for (std::size_t c = 0; c < 3; ++c) sums.channel[c].fill(weights.constant[c]);
-    for (std::size_t p = 0; p < weights.perPlane.size(); ++p) {
-      const auto plane = codes.plane(static_cast<int>(p));
-      planeValues(plane.data() + first + begin, count, coding, p, values.data());
-      sums.add(values.data(), count, weights.perPlane[p]);
-    }
-    for (std::size_t i = 0; i < count; ++i) {
-      for (std::size_t c = 0; c < 3; ++c) rgb[3 * (begin + i) + c] = sums.channel[c][i];
+  for (std::size_t begin = 0; begin < texels; begin += kSumBlock) {
+    const std::size_t count = std::min(kSumBlock, texels - begin);
+    const CodeRows codes = rowsFrom(planes, coding, first + begin);
+    if (weights.isSeparable) {
+      for (std::size_t k = 0; k < 3; ++k)
+        sumWeighted(codes, weights.separable[k], count, -0.0F, blocks[k]);
+      interleaveColoured(sums, weights.colours, weights.constant, count, rgb.data() + 3 * begin);
+    } else {
+      sumWeighted(codes, weights.planes, count, weights.constant, sums);
+      interleave(sums, count, rgb.data() + 3 * begin);
     }
   }
 }

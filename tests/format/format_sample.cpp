@@ -23,7 +23,7 @@ struct Sample {
 };
 
 std::vector<Sample> samples() {
-  std::vector<Sample> all(8);
+  std::vector<Sample> all(9);
   all[0].name = "plain";
   all[1].name = "twelve_bits_display";
   all[1].options.bits = 12;
@@ -48,6 +48,9 @@ std::vector<Sample> samples() {
   all[7].name = "views_fine_depth";
   all[7].options.views = sampleViews();
   all[7].options.depthSteps = 1000;
+  all[8].name = "exact";
+  all[8].options.exact = true;
+  all[8].options.bits = 16;
   return all;
 }
 

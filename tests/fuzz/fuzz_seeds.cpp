@@ -53,6 +53,10 @@ std::vector<SampleOptions> smallObjects() {
   views.bases = 2;
   views.depthSteps = 1000;
   all.push_back(views);
+  SampleOptions exact = all.front();
+  exact.exact = true;
+  exact.bits = 16;
+  all.push_back(exact);
   return all;
 }
 
@@ -88,7 +92,10 @@ void addObjects(const fs::path& folder) {
         const int coding = options.coding == Coding::Png    ? 0
                            : options.coding == Coding::Avif ? 1
                                                             : 2;
-        const int bits = options.bits == 8 ? 0 : options.bits == 10 ? 1 : 2;
+        const int bits = options.bits == 8    ? 0
+                         : options.bits == 10 ? 1
+                         : options.bits == 12 ? 2
+                                              : 3;
         for (const int value : {coding, bits, 11, options.size.width - 1, options.size.height - 1})
           tile.push_back(static_cast<std::byte>(value));
         for (const std::byte b : bytes) tile.push_back(b);

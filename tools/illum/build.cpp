@@ -40,7 +40,8 @@ struct BuildCommand {
 
   void addBasisOptions(CLI::App& command) {
     const std::string group = "Light basis";
-    command.add_option("--basis", build.basis, "learned (default), sh, hsh or dct")->group(group);
+    command.add_option("--basis", build.basis, "learned (default), sh, hsh, dct or exact")
+        ->group(group);
     auto* coefficients =
         command.add_option("--coefficients", build.coefficients, "per channel (sh, hsh, dct)")
             ->group(group);
@@ -64,7 +65,9 @@ struct BuildCommand {
 
   void addCodingOptions(CLI::App& command) {
     const std::string group = "Coding";
-    command.add_option("--coding", build.coding, "avif (default), jpeg or png (lossless)")
+    command
+        .add_option("--coding", build.coding,
+                    "avif (default), jpeg or png (lossless; default with exact)")
         ->group(group);
     command.add_option("--quality", build.quality, "0 to 100")->group(group);
     command.add_option("--bits", bits, "8, 10, 12 or 16 (default: chosen)")->group(group);

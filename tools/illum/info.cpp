@@ -59,7 +59,7 @@ nlohmann::ordered_json describe(const Object& object) {
   out["coding"] = nameOf(basis.coding.coding);
   out["quality"] = basis.coding.quality;
   out["bits"] = basis.coding.bits;
-  out["curve"] = basis.coding.curve == Curve::Linear ? "linear" : "signedSqrt";
+  out["curve"] = nameOf(basis.coding.curve);
   out["step"] = basis.coding.step;
   out["mask"] = m.mask;
   out["lights"] = m.lights.size();

@@ -48,9 +48,10 @@ std::unique_ptr<AnalyticBasis> analyticBasis(BasisFamily family, int coefficient
       }
       return chartCosines(coefficients, domain);
     case BasisFamily::Learned:
+    case BasisFamily::Exact:
       break;
   }
-  throw Error(Fault::Usage, "expected a basis of closed form (sh, hsh, dct), found a learned one");
+  throw Error(Fault::Usage, "expected a basis of closed form (sh, hsh, dct), found another");
 }
 
 BasisTable tableOf(const AnalyticBasis& basis, int resolution) {
