@@ -34,6 +34,26 @@ std::uint64_t bytesUnder(const Object& object, const std::string& prefix) {
   return bytes;
 }
 
+const char* kindOf(const ViewGeometry& geometry) {
+  if (std::holds_alternative<SlabView>(geometry)) return "slab";
+  if (std::holds_alternative<PinholeCamera>(geometry)) return "camera";
+  if (std::holds_alternative<Panorama>(geometry)) return "panorama";
+  return "photograph";
+}
+
+// "slab turn_0, 3 x 2 view points" for each slab that there is.
+nlohmann::ordered_json slabsOf(const Manifest& manifest) {
+  nlohmann::ordered_json slabs = nlohmann::ordered_json::array();
+  for (const GroupEntry& group : manifest.groups) {
+    const auto* view = std::get_if<SlabView>(&group.view.geometry);
+    if (view == nullptr) continue;
+    const LightSlab& slab = view->slab;
+    if (!slabs.empty() && slabs.back()["name"] == slab.name) continue;
+    slabs.push_back({{"name", slab.name}, {"columns", slab.uCount}, {"rows", slab.vCount}});
+  }
+  return slabs;
+}
+
 nlohmann::ordered_json describe(const Object& object) {
   const Manifest& m = object.manifest();
   const BasisEntry& basis = m.bases.front();
@@ -45,7 +65,10 @@ nlohmann::ordered_json describe(const Object& object) {
   nlohmann::ordered_json out;
   out["version"] = 1;
   out["format"] = fmt::format("{}.{}", m.versionMajor, m.versionMinor);
-  out["geometry"] = "photograph";
+  out["geometry"] = kindOf(object.view(0).geometry);
+  out["views"] = object.groups();
+  out["slabs"] = slabsOf(m);
+  out["bases"] = m.bases.size();
   out["width"] = grid.size.width;
   out["height"] = grid.size.height;
   out["levels"] = grid.levels();
@@ -62,6 +85,7 @@ nlohmann::ordered_json describe(const Object& object) {
   out["curve"] = nameOf(basis.coding.curve);
   out["step"] = basis.coding.step;
   out["mask"] = m.mask;
+  out["depth"] = object.hasDepth();
   out["lights"] = m.lights.size();
   out["heldOut"] = m.heldOut.size();
   out["generator"] = m.generator;
@@ -69,6 +93,7 @@ nlohmann::ordered_json describe(const Object& object) {
   out["planeBytes"] = bytesUnder(object, "planes/");
   out["basisBytes"] = bytesUnder(object, "basis.bin");
   out["maskBytes"] = bytesUnder(object, "mask/");
+  out["depthBytes"] = bytesUnder(object, "depth/");
   out["bitsPerPixel"] = 8 * static_cast<double>(object.fileBytes()) / pixels;
   for (const auto& [key, text] : m.provenance) out["provenance"].push_back({key, text});
   return out;
@@ -87,6 +112,16 @@ void print(const std::string& path, const nlohmann::ordered_json& facts) {
   line("geometry", fmt::format("{}, {} x {} pixels, {} level{}, tiles of {}", text("geometry"),
                                number("width"), number("height"), number("levels"),
                                number("levels") == 1 ? "" : "s", number("tile")));
+  if (number("views") > 1 || facts["slabs"].size() > 0) {
+    std::string views = fmt::format("{}", number("views"));
+    for (const auto& slab : facts["slabs"])
+      views += fmt::format("{} {} {} x {}", slab == facts["slabs"].front() ? ": slab" : ",",
+                           slab["name"].get<std::string>(), slab["columns"].get<int>(),
+                           slab["rows"].get<int>());
+    line("views", views + (number("bases") > 1
+                               ? fmt::format("; {} bases, this is the first", number("bases"))
+                               : ""));
+  }
   line("basis", fmt::format("{} over the {}, {} coefficients, {} planes ({} stored)", text("basis"),
                             text("domain"), number("coefficients"), number("planes"),
                             number("storedPlanes")));
@@ -96,9 +131,10 @@ void print(const std::string& path, const nlohmann::ordered_json& facts) {
                    number("quality"), number("bits"), text("curve"), facts["step"].get<double>()));
   line("lights", fmt::format("{}, {} held out", number("lights"), number("heldOut")));
   line("size",
-       fmt::format("{}, {:.2f} bits a pixel (planes {}, basis {}{})", bytes("bytes"),
+       fmt::format("{}, {:.2f} bits a pixel (planes {}, basis {}{}{})", bytes("bytes"),
                    facts["bitsPerPixel"].get<double>(), bytes("planeBytes"), bytes("basisBytes"),
-                   facts["mask"].get<bool>() ? ", mask " + bytes("maskBytes") : ""));
+                   facts["mask"].get<bool>() ? ", mask " + bytes("maskBytes") : "",
+                   facts["depth"].get<bool>() ? ", depth " + bytes("depthBytes") : ""));
   line("made by", text("generator"));
   if (!facts.contains("provenance")) return;
   for (const auto& entry : facts["provenance"]) {
