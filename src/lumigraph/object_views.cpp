@@ -1,6 +1,8 @@
 #include "lumigraph/object_views.h"
 
 #include <algorithm>
+#include <numeric>
+#include <utility>
 
 #include "object/manifest.h"
 
@@ -11,24 +13,39 @@ std::uint64_t bytesOf(const Picture& picture) {
   return picture.samples().size_bytes();
 }
 
-Picture withCoverage(Picture picture) {
-  if (picture.channels() == 4) return picture;
-  Picture covered(picture.size(), 4);
-  for (std::size_t i = 0; i < picture.size().pixels(); ++i) {
-    std::copy_n(&picture.samples()[3 * i], 3, &covered.samples()[4 * i]);
-    covered.samples()[4 * i + 3] = 1;
-  }
-  return covered;
+std::vector<int> allGroups(const Object& object) {
+  std::vector<int> groups(static_cast<std::size_t>(object.groups()));
+  std::iota(groups.begin(), groups.end(), 0);
+  return groups;
 }
 
 }  // namespace
 
 ObjectViews::ObjectViews(Object object, std::uint64_t memoryBytes)
-    : object_(std::move(object)), memoryBytes_(memoryBytes) {
-  for (int group = 0; group < object_.groups(); ++group) {
+    : ObjectViews(object, memoryBytes, allGroups(object), 4) {}
+
+ObjectViews::ObjectViews(Object object, std::uint64_t memoryBytes, std::vector<int> groups,
+                         int channels)
+    : object_(std::move(object)),
+      memoryBytes_(memoryBytes),
+      groups_(std::move(groups)),
+      channels_(channels) {
+  for (const int group : groups_) {
     views_.push_back(object_.view(group));
     hasDepth_ = hasDepth_ && object_.hasDepth(group);
   }
+}
+
+Picture ObjectViews::withCoverage(Picture picture) const {
+  if (picture.channels() == channels_) return picture;
+  const auto colours = static_cast<std::size_t>(channels_) - 1;
+  Picture covered(picture.size(), channels_);
+  for (std::size_t i = 0; i < picture.size().pixels(); ++i) {
+    float* out = &covered.samples()[(colours + 1) * i];
+    std::copy_n(&picture.samples()[colours * i], colours, out);
+    out[colours] = 1;
+  }
+  return covered;
 }
 
 void ObjectViews::setRelit(std::function<Picture(int group)> relit) {
@@ -61,12 +78,14 @@ std::shared_ptr<const Picture> ObjectViews::kept(const Key& key, const Make& mak
 }
 
 std::shared_ptr<const Picture> ObjectViews::picture(int view) {
-  return kept({false, view},
-              [&] { return relit_ ? withCoverage(relit_(view)) : Picture(object_.size(view), 4); });
+  const int group = groups_[static_cast<std::size_t>(view)];
+  return kept({false, view}, [&] {
+    return relit_ ? withCoverage(relit_(group)) : Picture(object_.size(group), channels_);
+  });
 }
 
 std::shared_ptr<const Picture> ObjectViews::depth(int view) {
-  return kept({true, view}, [&] { return depthOf(view); });
+  return kept({true, view}, [&] { return depthOf(groups_[static_cast<std::size_t>(view)]); });
 }
 
 Picture ObjectViews::depthOf(int group) const {

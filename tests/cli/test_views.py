@@ -332,3 +332,27 @@ def test_a_film_does_not_replace_other_files(illum, slab, tmp_path):
     (tmp_path / "film/mine.txt").write_text("mine")
     illum.refuses("relight", slab, *LIT, "--path", "orbit", "-o", tmp_path / "film", code=1,
                   mentions="--force", leaves=tmp_path)
+
+
+def test_converting_without_changes_gives_the_same_bytes(illum, slab, tmp_path):
+    illum("convert", slab, f"{tmp_path}/folder/")
+    illum("convert", tmp_path / "folder", tmp_path / "again.illum")
+    assert (tmp_path / "again.illum").read_bytes() == slab.read_bytes()
+
+
+def test_another_grid_of_view_points(illum, slab, tmp_path):
+    finer = tmp_path / "finer.illum"
+    illum("convert", slab, finer, "--uv", "5x5")
+    illum("verify", finer)
+    made, between = (see(illum, built, tmp_path, "--view", "0.25,0.75").astype(float)
+                     for built in (finer, slab))
+    assert stacks.psnr(balls.over_black(made), balls.over_black(between)) > 30
+    kept, stored = (see(illum, built, tmp_path, "--view", "1,0.5") for built in (finer, slab))
+    assert np.array_equal(kept, stored)
+
+
+def test_conversions_that_cannot_be(illum, slab, poses, tmp_path):
+    illum.refuses("convert", slab, tmp_path / "o.illum", "--uv", "0x3", code=2, mentions="--uv",
+                  leaves=tmp_path)
+    illum.refuses("convert", poses, tmp_path / "o.illum", "--uv", "3x3", code=1,
+                  mentions="slabs", leaves=tmp_path)

@@ -10,6 +10,7 @@ inline constexpr int kDone = 0, kFault = 1, kStopped = 130;
 
 void addBuild(CLI::App& program, int& exitCode);
 void addCapture(CLI::App& program, int& exitCode);
+void addConvert(CLI::App& program, int& exitCode);
 void addRelight(CLI::App& program, int& exitCode);
 void addEvaluate(CLI::App& program, int& exitCode);
 void addInfo(CLI::App& program, int& exitCode);

@@ -12,9 +12,6 @@
 
 namespace illum::cli {
 
-namespace {
-
-// "9x9" as columns and rows of view points.
 std::array<int, 2> gridFrom(const std::string& text) {
   std::array<int, 2> counts{};
   int end = 0;
@@ -26,8 +23,6 @@ std::array<int, 2> gridFrom(const std::string& text) {
   }
   return counts;
 }
-
-}  // namespace
 
 void SceneInput::addTo(CLI::App& command) {
   const std::string group = "Scenes";

@@ -18,6 +18,9 @@ inline constexpr const char* kInputs =
     "folder of photographs with a light file, folder with a capture.json, scene or mesh file, or "
     "builtin:NAME";
 
+/// --uv: "9x9" as columns and rows of view points. Throws Error (Fault::Usage).
+std::array<int, 2> gridFrom(const std::string& text);
+
 /// The options that say how scenes are captured, where not as they say themselves.
 struct SceneInput {
   std::string uv;

@@ -28,6 +28,7 @@ int run(int argc, char** argv) {
   illum::cli::addBuild(program, exitCode);
   illum::cli::addCapture(program, exitCode);
   illum::cli::addRelight(program, exitCode);
+  illum::cli::addConvert(program, exitCode);
   illum::cli::addEvaluate(program, exitCode);
   illum::cli::addInfo(program, exitCode);
   illum::cli::addVerify(program, exitCode);

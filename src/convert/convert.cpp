@@ -1,0 +1,236 @@
+#include "illum/convert.h"
+
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <utility>
+
+#include "build/depth_range.h"
+#include "build/tile_writer.h"
+#include "convert/new_view.h"
+#include "convert/view_plan.h"
+#include "core/memory.h"
+#include "encode/encode_tile.h"
+#include "encode/object_writer.h"
+#include "illum/error.h"
+#include "object/entry_name.h"
+
+namespace illum {
+namespace {
+
+constexpr int kMaxViewPoints = 1024;  // in a row of a slab
+constexpr int kDefaultSpeed = 6;
+
+void checkOptions(const ConvertOptions& options) {
+  const auto refuse = [](std::string_view option, std::string_view expected, int found) {
+    throw Error(Fault::Usage, fmt::format("{}: expected {}, found {}", option, expected, found));
+  };
+  if (options.uCount < 0 || options.vCount < 0 || options.uCount > kMaxViewPoints ||
+      options.vCount > kMaxViewPoints || (options.uCount == 0) != (options.vCount == 0)) {
+    throw Error(Fault::Usage, fmt::format("--uv: expected 1x1 to {0}x{0}, found {1}x{2}",
+                                          kMaxViewPoints, options.uCount, options.vCount));
+  }
+  if (options.quality < -1 || options.quality > 100)
+    refuse("--quality", "0 to 100", options.quality);
+  if (options.speed < -1 || options.speed > 10) refuse("--speed", "0 to 10", options.speed);
+}
+
+class Conversion {
+ public:
+  Conversion(const Object& source, const ConvertOptions& options, ObjectWriter& writer,
+             Progress& progress)
+      : source_(source),
+        old_(source.manifest()),
+        options_(options),
+        writer_(writer),
+        progress_(progress),
+        memoryBytes_(options.memoryBytes != 0 ? options.memoryBytes : machineMemoryBytes() / 4) {
+    plan();
+  }
+
+  /// False if it was stopped.
+  bool run(ConvertReport& report);
+
+ private:
+  void plan();
+  bool changesNothing() const { return !recodes_ && options_.uCount == 0; }
+  void copyEntry(const std::string& name) { writer_.add(name, source_.entry(name)); }
+  void copyView(int stored, int group);
+  void makeView(int group, LevelPyramid& pyramid, ConvertReport& report);
+  ObjectViews& viewsOf(const std::vector<int>& groups);
+  int tilesAtOnce() const;
+
+  const Object& source_;
+  const Manifest& old_;
+  const ConvertOptions& options_;
+  ObjectWriter& writer_;
+  Progress& progress_;
+  std::uint64_t memoryBytes_;
+  std::vector<PlannedView> views_;
+  Manifest manifest_;
+  EncodeSettings settings_;
+  bool recodes_ = false;
+  std::vector<int> slabGroups_;  // of slabViews_
+  std::unique_ptr<ObjectViews> slabViews_;
+};
+
+void Conversion::plan() {
+  const CodingEntry& coding = old_.coding();
+  const Coding wanted = options_.coding.empty() ? coding.coding : codingFromName(options_.coding);
+  if (!supportsBits(wanted, coding.bits)) {
+    throw Error(Fault::Input, fmt::format("{}: expected a coding that holds {} bits, found {}",
+                                          source_.path().string(), coding.bits, nameOf(wanted)));
+  }
+  settings_.quality = options_.quality >= 0 ? options_.quality : coding.quality;
+  settings_.speed = options_.speed >= 0 ? options_.speed : kDefaultSpeed;
+  recodes_ = wanted != coding.coding || options_.quality >= 0;
+  views_ = options_.uCount == 0 ? viewsAsTheyAre(old_)
+                                : viewsOnGrid(old_, options_.uCount, options_.vCount);
+  manifest_ = old_;
+  manifest_.groups.clear();
+  for (const PlannedView& view : views_) manifest_.groups.push_back(view.entry);
+  for (BasisEntry& basis : manifest_.bases) {
+    basis.coding.coding = wanted;
+    basis.coding.quality = settings_.quality;
+  }
+  if (recodes_) {
+    manifest_.provenance.emplace_back(
+        "convert", fmt::format("coding {}, quality {}", nameOf(wanted), settings_.quality));
+  }
+  if (options_.uCount > 0) {
+    manifest_.provenance.emplace_back(
+        "convert",
+        fmt::format("view points {}x{}, {}", options_.uCount, options_.vCount,
+                    options_.useDepth && source_.hasDepth() ? "by depth" : "on the window"));
+  }
+  checkConsistency(manifest_);
+}
+
+// As many as fit a quarter of the memory; half of it is for views.
+int Conversion::tilesAtOnce() const {
+  std::vector<int> planes;
+  for (int b = 0; b < static_cast<int>(manifest_.bases.size()); ++b) {
+    int most = 1;
+    for (const int function : manifest_.bases[static_cast<std::size_t>(b)].coding.functions)
+      most = std::max(most, function + 1);
+    planes.push_back(most);
+  }
+  const std::uint64_t each = std::max<std::uint64_t>(1, tileCodingBytes(manifest_, planes));
+  const auto threads = static_cast<std::uint64_t>(tbb::this_task_arena::max_concurrency());
+  return static_cast<int>(std::clamp<std::uint64_t>(memoryBytes_ / 4 / each, 1, threads));
+}
+
+void Conversion::copyView(int stored, int group) {
+  const TileGrid grid = old_.grid(stored);
+  for (int level = 0; level < grid.levels(); ++level) {
+    const int across = grid.tilesAcross(level);
+    tbb::task_arena arena(tilesAtOnce());
+    arena.execute([&] {
+      tbb::parallel_for(0, across * grid.tilesDown(level), [&](int i) {
+        const int x = i % across, y = i / across;
+        const auto copy = [&](auto nameIn) {
+          writer_.add(nameIn(manifest_, group, level, x, y),
+                      source_.entry(nameIn(old_, stored, level, x, y)));
+        };
+        if (recodes_) {
+          const CodingEntry& coding = manifest_.coding(group);
+          writer_.add(planeTileName(manifest_, group, level, x, y),
+                      encodeTile(source_.planeTile(stored, level, x, y), coding.coding, coding.bits,
+                                 settings_));
+        } else {
+          copy(planeTileName);
+        }
+        if (old_.mask) copy(maskTileName);
+        if (source_.hasDepth(stored)) copy(depthTileName);
+      });
+    });
+  }
+}
+
+ObjectViews& Conversion::viewsOf(const std::vector<int>& groups) {
+  if (!slabViews_ || slabGroups_ != groups) {
+    slabGroups_ = groups;
+    slabViews_ = std::make_unique<ObjectViews>(planeViews(source_, groups, memoryBytes_ / 2));
+  }
+  return *slabViews_;
+}
+
+void Conversion::makeView(int group, LevelPyramid& pyramid, ConvertReport& report) {
+  const PlannedView& planned = views_[static_cast<std::size_t>(group)];
+  SynthesisOptions how;
+  how.useDepth = options_.useDepth;
+  ObjectViews& views = viewsOf(planned.sources);
+  NewView view = synthesisedPlanes(views, planned.entry.view.geometry, how);
+  auto& depth = manifest_.groups[static_cast<std::size_t>(group)].depth;
+  depth.reset();
+  if (!view.depth.empty()) {
+    double from = std::numeric_limits<double>::infinity(), to = -from;
+    for (const float z : view.depth) {
+      if (!std::isfinite(z)) continue;
+      from = std::min<double>(from, z);
+      to = std::max<double>(to, z);
+    }
+    if (from > to) from = to = 0;
+    const std::vector<View> self{planned.entry.view};
+    depth = depthRangeFor(self, 0, from, to);
+  }
+  report.unseenPixels += view.unseenPixels;
+  for (int row = 0; row < manifest_.grid(group).tilesDown(0); ++row)
+    pyramid.add(view.tileRow(manifest_, group, row));
+}
+
+bool Conversion::run(ConvertReport& report) {
+  progress_.begin("converting", views_.size());
+  TileWriter tiles(manifest_, settings_, tilesAtOnce(), writer_, progress_);
+  LevelPyramid pyramid(manifest_, [&](const PlaneRow& row) { tiles.write(row); });
+  for (std::size_t g = 0; g < views_.size(); ++g) {
+    const auto group = static_cast<int>(g);
+    if (views_[g].stored) {
+      copyView(*views_[g].stored, group);
+      ++report.keptViews;
+    } else {
+      makeView(group, pyramid, report);
+      ++report.newViews;
+    }
+    progress_.advance();
+    if (options_.stop && options_.stop()) return false;
+  }
+  progress_.end();
+  report.clippedSamples = tiles.clippedSamples();
+  copyEntry(std::string(kBasisEntry));
+  const auto names = source_.entries();
+  if (std::ranges::find(names, kPosterEntry) != names.end()) copyEntry(std::string(kPosterEntry));
+  if (changesNothing()) {
+    copyEntry(std::string(kManifestEntry));
+  } else {
+    const std::string text = textOf(manifest_);
+    writer_.add(std::string(kManifestEntry), std::as_bytes(std::span(text)));
+  }
+  return true;
+}
+
+}  // namespace
+
+ConvertReport convertObject(const Object& source, const std::filesystem::path& out,
+                            const ConvertOptions& options, Progress& progress) {
+  checkOptions(options);
+  const bool folder = !out.has_filename();
+  ObjectWriter writer(folder ? out.parent_path() : out,
+                      folder ? ObjectForm::Folder : ObjectForm::Archive, "convert", false,
+                      options.force);
+  ConvertReport report;
+  Conversion conversion(source, options, writer, progress);
+  if (!conversion.run(report)) {
+    report.stopped = true;
+    return report;
+  }
+  report.bytes = writer.finish();
+  return report;
+}
+
+}  // namespace illum
