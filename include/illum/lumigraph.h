@@ -48,6 +48,12 @@ struct SourceView {
 /// their views, differ in channels, or only some have depth.
 std::unique_ptr<ViewSource> viewSource(std::span<const SourceView> views);
 
+/// A camera at `eye` whose picture's middle is `target`; the field of view goes from the bottom of
+/// the picture to its top, above 0 and below 180. Throws Error (Fault::Input) where eye, target and
+/// `up` determine no frame.
+PinholeCamera cameraLookingAt(Vector3 eye, Vector3 target, double fieldOfViewDegrees, Size size,
+                              Vector3 up = {0, 1, 0});
+
 /// {p : dot(normal, p - point) = 0}, object frame.
 struct Plane {
   Vector3 point, normal{0, 0, 1};

@@ -8,6 +8,7 @@
 
 #include "core/files.h"
 #include "illum/error.h"
+#include "illum/lumigraph.h"
 #include "json/visitors.h"
 #include "lumigraph/camera_fields.h"
 
@@ -15,16 +16,21 @@ namespace illum {
 namespace {
 
 PinholeCamera pinholeOfLook(const LookAt& look, Size size) {
+  return cameraLookingAt(look.eye, look.target, look.fieldOfViewDegrees, size, look.up);
+}
+
+}  // namespace
+
+PinholeCamera cameraLookingAt(Vector3 eye, Vector3 target, double fieldOfViewDegrees, Size size,
+                              Vector3 up) {
   PinholeCamera camera;
-  camera.objectFromCamera = lookAt(look.eye, look.target, look.up);
-  const double halfAngle = look.fieldOfViewDegrees / 2 * std::numbers::pi / 180;
+  camera.objectFromCamera = lookAt(eye, target, up);
+  const double halfAngle = fieldOfViewDegrees / 2 * std::numbers::pi / 180;
   camera.focalX = camera.focalY = 0.5 * size.height / std::tan(halfAngle);
   camera.centre = {0.5 * size.width, 0.5 * size.height};
   camera.size = size;
   return camera;
 }
-
-}  // namespace
 
 void checkPose(const CameraPose& pose) {
   if (const auto* look = std::get_if<LookAt>(&pose)) {

@@ -127,7 +127,7 @@ class Slab:
 def write_exr(file, values):
     tif = file.with_suffix(".tif")
     Image.fromarray(np.asarray(values, np.float32)).save(tif)
-    subprocess.run(["oiiotool", tif, "--chnames", "Z", "-d", "float", "-o", file], check=True,
+    subprocess.run(["oiiotool", tif, "--chnames", "Y", "-d", "float", "-o", file], check=True,
                    capture_output=True)
     tif.unlink()
 
