@@ -1,0 +1,306 @@
+// Photographs that were left out, predicted from the others (docs/quality.md, "Photographs that
+// were left out"). The data are public and not part of this project.
+//
+//   illum_view_holdout shop|cube FOLDER [SHRINK [EVERY [PICTURES]]]
+//
+// shop: a grid of parallel cameras, views/ and holdout/ with views.csv and holdout.csv (col, row,
+// cam_x_mm, cam_y_mm); every EVERY-th of the held-out pictures is predicted. cube: images/,
+// poses.json and proxy.obj, each view from all others. PICTURES: a folder for sheets to look at.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <string>
+
+#include "capture/proxy_mesh.h"
+#include "core/files.h"
+#include "held_out.h"
+#include "illum/error.h"
+#include "illum/lumigraph.h"
+#include "illum/picture_io.h"
+#include "plane_sweep.h"
+
+namespace {
+
+using namespace illum;
+using bench::Score;
+namespace fs = std::filesystem;
+
+constexpr int kSweptPlanes = 48;
+constexpr double kNearest = 3, kFarthest = 40;  // of the shop, metres
+
+struct Arguments {
+  std::string what;
+  fs::path folder;
+  int shrink = 2, every = 12;
+  fs::path pictures;
+};
+
+// A box of shrink x shrink pixels becomes one; RGBA, covered everywhere.
+Picture readShrunk(const fs::path& file, int shrink) {
+  const Picture full = readPicture(file);
+  Picture picture({full.width() / shrink, full.height() / shrink}, 4);
+  const float share = 1.0F / static_cast<float>(shrink * shrink);
+  for (int y = 0; y < picture.height(); ++y) {
+    for (int x = 0; x < picture.width(); ++x) {
+      for (int i = 0; i < shrink * shrink; ++i) {
+        for (int c = 0; c < 3; ++c) {
+          picture.at(x, y, c) +=
+              share * full.at(x * shrink + i % shrink, y * shrink + i / shrink, c);
+        }
+      }
+      picture.at(x, y, 3) = 1;
+    }
+  }
+  return picture;
+}
+
+// The ways of predicting, each with its score.
+class Table {
+ public:
+  void add(const std::string& way, const Picture& found, const Picture& truth) {
+    const auto at = std::ranges::find(rows_, way, &Row::way);
+    Row& row = at != rows_.end() ? *at : rows_.emplace_back(Row{way, {}, 1});
+    row.score.add(found, truth);
+    row.coverage = std::min(row.coverage, bench::coverageShare(found, truth));
+  }
+  void print() const {
+    fmt::print("| predicted by | PSNR, dB | least coverage |\n|---|---|---|\n");
+    for (const Row& row : rows_) {
+      fmt::print("| {} | {:.2f} | {:.1f} % |\n", row.way, row.score.decibels(), 100 * row.coverage);
+    }
+    fmt::print("{} pictures\n", rows_.empty() ? 0 : rows_.front().score.pictures());
+  }
+
+ private:
+  struct Row {
+    std::string way;
+    Score score;
+    double coverage;
+  };
+  std::vector<Row> rows_;
+};
+
+SynthesisOptions focusedAt(const Plane& plane, int blended) {
+  SynthesisOptions options;
+  options.focus = plane;
+  options.blendedViews = blended;
+  return options;
+}
+
+// --- the shop ---
+
+struct ShopCamera {
+  fs::path file;
+  double x = 0, y = 0;  // metres
+};
+
+std::vector<ShopCamera> shopCameras(const fs::path& list, const fs::path& pictures) {
+  std::ifstream file(list);
+  if (!file) throw Error(Fault::Input, fmt::format("{}: cannot be read", list.string()));
+  std::vector<ShopCamera> cameras;
+  std::string line, cell;
+  std::getline(file, line);  // the header
+  while (std::getline(file, line)) {
+    std::vector<std::string> cells;
+    for (std::stringstream rest(line); std::getline(rest, cell, ',');) cells.push_back(cell);
+    if (cells.size() < 5) continue;
+    cameras.push_back(
+        {pictures / cells[0], std::stod(cells[3]) / 1000, std::stod(cells[4]) / 1000});
+  }
+  return cameras;
+}
+
+View shopView(const ShopCamera& camera, Size size, double focal) {
+  PinholeCamera pinhole;
+  pinhole.objectFromCamera.translation = {camera.x, camera.y, 0};
+  pinhole.size = size;
+  pinhole.focalX = pinhole.focalY = focal;
+  pinhole.centre = {0.5 * size.width, 0.5 * size.height};
+  return {camera.file.stem().string(), pinhole};
+}
+
+class Shop {
+ public:
+  explicit Shop(const Arguments& arguments)
+      : arguments_(arguments),
+        sampled_(shopCameras(arguments.folder / "views.csv", arguments.folder / "views")),
+        heldOut_(shopCameras(arguments.folder / "holdout.csv", arguments.folder / "holdout")) {
+    const auto geometry =
+        nlohmann::json::parse(readTextFile(arguments.folder / "geometry.json", 1 << 16));
+    focal_ = geometry.at("focal_px").get<double>() / arguments.shrink;
+    depths_ = bench::depthsBetween(kNearest, kFarthest, kSweptPlanes);
+  }
+
+  void run() {
+    for (std::size_t i = static_cast<std::size_t>(arguments_.every) / 2; i < heldOut_.size();
+         i += static_cast<std::size_t>(arguments_.every)) {
+      predict(heldOut_[i]);
+      fmt::print(stderr, "{}\n", heldOut_[i].file.string());
+    }
+    table_.print();
+  }
+
+ private:
+  // The held-out cameras stand in the middle of four others, which are all that blending asks for.
+  void predict(const ShopCamera& camera) {
+    const Picture truth = readShrunk(camera.file, arguments_.shrink);
+    const View target = shopView(camera, truth.size(), focal_);
+    std::vector<SourceView> near = nearest(camera, 4);
+    const double common = bench::bestCommonDepth(near[0], std::span(near).subspan(1), depths_);
+    const Plane plane{{0, 0, -common}, {0, 0, 1}};
+
+    std::vector<Picture> sheet;
+    const auto judge = [&](const char* way, const Picture& found) {
+      table_.add(way, found, truth);
+      sheet.push_back(found);
+    };
+    const auto source = viewSource(near);
+    judge("nearest view", near[0].picture);
+    judge("nearest view, on the best focal plane",
+          synthesise(*source, target.geometry, focusedAt(plane, 1)).picture);
+    judge("plain blending of 4", synthesise(*source, target.geometry).picture);
+    judge("blending of 4 on the best focal plane",
+          synthesise(*source, target.geometry, focusedAt(plane, 4)).picture);
+    addDepth(near);
+    judge("blending of 4 by swept depth", synthesise(*viewSource(near), target.geometry).picture);
+    sheet.push_back(truth);
+    if (!arguments_.pictures.empty()) {
+      bench::writeSheet(arguments_.pictures / (target.name + ".png"), sheet);
+    }
+  }
+
+  std::vector<SourceView> nearest(const ShopCamera& camera, std::size_t count) const {
+    std::vector<ShopCamera> by = sampled_;
+    std::stable_sort(by.begin(), by.end(), [&](const ShopCamera& a, const ShopCamera& b) {
+      return std::hypot(a.x - camera.x, a.y - camera.y) <
+             std::hypot(b.x - camera.x, b.y - camera.y) - 1e-9;
+    });
+    std::vector<SourceView> views;
+    for (std::size_t i = 0; i < count; ++i) {
+      Picture picture = readShrunk(by[i].file, arguments_.shrink);
+      const View view = shopView(by[i], picture.size(), focal_);
+      views.push_back({view, std::move(picture), {}});
+    }
+    return views;
+  }
+
+  // Of each view from the others.
+  void addDepth(std::vector<SourceView>& views) const {
+    std::vector<Picture> depths;
+    for (std::size_t i = 0; i < views.size(); ++i) {
+      std::vector<SourceView> others = views;
+      others.erase(others.begin() + static_cast<std::ptrdiff_t>(i));
+      depths.push_back(bench::sweptDepth(views[i], others, depths_));
+    }
+    for (std::size_t i = 0; i < views.size(); ++i) views[i].depth = std::move(depths[i]);
+  }
+
+  Arguments arguments_;
+  std::vector<ShopCamera> sampled_, heldOut_;
+  double focal_ = 1;
+  std::vector<double> depths_;
+  Table table_;
+};
+
+// --- the cube ---
+
+View cubeView(const nlohmann::json& entry, int shrink, Size size) {
+  const double f = entry.at("f").get<double>() / shrink;
+  const double cx = entry.at("cx").get<double>() / shrink;
+  const double cy = entry.at("cy").get<double>() / shrink;
+  ProjectionMatrix matrix{};
+  for (std::size_t i = 0; i < 4; ++i) {
+    std::array<double, 3> column;
+    for (std::size_t r = 0; r < 3; ++r) {
+      column[r] =
+          i < 3 ? entry.at("R").at(r).at(i).get<double>() : entry.at("t").at(r).get<double>();
+    }
+    matrix[i] = f * column[0] + cx * column[2];
+    matrix[4 + i] = f * column[1] + cy * column[2];
+    matrix[8 + i] = column[2];
+  }
+  return {entry.at("file").get<std::string>(), pinholeFromProjection(matrix, size)};
+}
+
+void predictCube(const Arguments& arguments) {
+  const auto poses = nlohmann::json::parse(readTextFile(arguments.folder / "poses.json", 1 << 20));
+  const ProxyMesh mesh =
+      proxyFromObj(readTextFile(arguments.folder / "proxy.obj", 1 << 26), "proxy.obj");
+  std::vector<SourceView> all;
+  for (const auto& entry : poses.at("views")) {
+    Picture picture = readShrunk(arguments.folder / "images" / entry.at("file").get<std::string>(),
+                                 arguments.shrink);
+    const View view = cubeView(entry, arguments.shrink, picture.size());
+    Picture depth = depthOfProxy(mesh, view.geometry);
+    all.push_back({view, std::move(picture), std::move(depth)});
+  }
+  Table table;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const SourceView truth = all[i];
+    std::vector<SourceView> others = all;
+    others.erase(others.begin() + static_cast<std::ptrdiff_t>(i));
+    const auto source = viewSource(others);
+    const auto eyeOf = [](const View& view) {
+      return std::get<PinholeCamera>(view.geometry).objectFromCamera.translation;
+    };
+    const auto nearest = std::ranges::min_element(others, {}, [&](const SourceView& other) {
+      return length(eyeOf(other.view) - eyeOf(truth.view));
+    });
+    SynthesisOptions one, plain;
+    one.blendedViews = 1;
+    plain.useDepth = false;
+    const std::vector<Picture> sheet{
+        nearest->picture, synthesise(*source, truth.view.geometry, plain).picture,
+        synthesise(*source, truth.view.geometry, one).picture,
+        synthesise(*source, truth.view.geometry).picture, truth.picture};
+    const std::array ways{"nearest view", "blending of 4 on the plane that cameras look at",
+                          "one view on the mesh", "blending of 4 on the mesh"};
+    for (std::size_t w = 0; w < ways.size(); ++w) table.add(ways[w], sheet[w], truth.picture);
+    if (!arguments.pictures.empty()) {
+      bench::writeSheet(arguments.pictures / fmt::format("cube_{}.png", i), sheet);
+    }
+    fmt::print(stderr, "{}\n", truth.view.name);
+  }
+  table.print();
+}
+
+int run(const Arguments& arguments) {
+  if (!fs::is_directory(arguments.folder)) {
+    fmt::print("skipped: {} is not there\n", arguments.folder.string());
+    return 0;
+  }
+  if (!arguments.pictures.empty()) fs::create_directories(arguments.pictures);
+  if (arguments.what == "cube") {
+    predictCube(arguments);
+  } else {
+    Shop(arguments).run();
+  }
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc < 3 || (std::string(argv[1]) != "shop" && std::string(argv[1]) != "cube")) {
+    fmt::print(stderr, "usage: illum_view_holdout shop|cube FOLDER [SHRINK [EVERY [PICTURES]]]\n");
+    return 2;
+  }
+  Arguments arguments;
+  arguments.what = argv[1];
+  arguments.folder = argv[2];
+  if (argc > 3) arguments.shrink = std::max(1, std::atoi(argv[3]));
+  if (argc > 4) arguments.every = std::max(1, std::atoi(argv[4]));
+  if (argc > 5) arguments.pictures = argv[5];
+  try {
+    return run(arguments);
+  } catch (const Error& error) {
+    fmt::print(stderr, "illum_view_holdout: {}\n", error.what());
+    return 1;
+  }
+}
