@@ -18,6 +18,9 @@ namespace illum {
 class PreparedLights {
  public:
   int group() const;
+  /// How often each texel's planes are gone through for lights at infinity: once where the response
+  /// is linear, else once for each directional light and each direction of an environment.
+  int passes() const;
 
  private:
   friend class Relighter;
@@ -31,6 +34,10 @@ struct PrepareOptions {
   /// Where a photograph's pixels lie for lights near the object: z in units of the object, in
   /// channel 0 of a picture of the photograph's size. Empty: the plane z = 0.
   std::shared_ptr<const Picture> heights;
+  /// Where the response is not linear, an environment becomes about as few directional lights as
+  /// keep the picture's rms error under this share of its rms, at most 1024. The error is measured
+  /// on a thousand texels against a cut of 4096 regions.
+  double environmentError = 0.005;
 };
 
 /// Relights views of one object, keeping decoded tiles. Thread safe.

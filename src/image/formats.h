@@ -25,6 +25,13 @@ StoredPicture decodeJpeg(std::span<const std::byte> bytes, const std::filesystem
 /// Linear Rec.709.
 Picture decodeExr(std::span<const std::byte> bytes, const std::filesystem::path& source);
 
+/// What a PNG says of its samples: Linear writes a gAMA of 1, Unsaid nothing, as is usual for
+/// samples that are no colours.
+enum class PngTransfer { Linear, Unsaid };
+
+/// 16 bits a sample, 1, 3 or 4 channels, as they are.
+std::vector<std::byte> encodePng(const PictureOf<std::uint16_t>& picture, PngTransfer transfer);
+
 /// How an OpenEXR file keeps samples. Halves have 11 significant bits, to 65504.
 enum class ExrSamples { Float, Half };
 

@@ -86,6 +86,19 @@ TEST(Png, RoundTrips) {
   }
 }
 
+TEST(Png, WordsRoundTripAndSayWhatTheyAre) {
+  for (const int channels : {1, 3, 4}) {
+    PictureOf<std::uint16_t> picture({17, 5}, channels);
+    for (std::size_t i = 0; i < picture.samples().size(); ++i)
+      picture.samples()[i] = static_cast<std::uint16_t>(65535 - 771 * i);
+    for (const PngTransfer transfer : {PngTransfer::Linear, PngTransfer::Unsaid}) {
+      const StoredPicture stored = decode(encodePng(picture, transfer));
+      EXPECT_EQ(stored.words, picture);
+      EXPECT_EQ(stored.linear, transfer == PngTransfer::Linear);
+    }
+  }
+}
+
 bool contains(const Bytes& bytes, std::string_view text) {
   const std::string_view all(reinterpret_cast<const char*>(bytes.data()), bytes.size());
   return all.find(text) != std::string_view::npos;

@@ -136,6 +136,24 @@ TEST(MedianCut, KeepsAllLight) {
   EXPECT_NEAR(cut, all, 1e-5 * all);
 }
 
+TEST(MedianCut, FewerRegionsAreThoseOfAShorterCut) {
+  Picture map({64, 32}, 3);
+  for (std::size_t i = 0; i < map.samples().size(); ++i)
+    map.samples()[i] = i % 5 == 0 ? 0 : static_cast<float>(i * 7919 % 1013) / 100;
+  const Environment environment(map);
+  const MedianCut cut(environment, 300);
+  EXPECT_EQ(cut.mostLights(), 300);
+  for (const int regions : {1, 2, 3, 17, 128, 300}) {
+    const auto longer = cut.lights(regions), shorter = medianCut(environment, regions);
+    ASSERT_EQ(longer.size(), static_cast<std::size_t>(regions));
+    ASSERT_EQ(longer.size(), shorter.size());
+    for (std::size_t i = 0; i < longer.size(); ++i) {
+      EXPECT_LT(angleRadians(longer[i].toLight, shorter[i].toLight), 1e-6);
+      EXPECT_NEAR(longer[i].intensity.g, shorter[i].intensity.g, 1e-4 * shorter[i].intensity.g);
+    }
+  }
+}
+
 TEST(MedianCut, OneBrightTexelIsOneLight) {
   Picture map({32, 16}, 3);
   map.at(9, 4, 1) = 5;

@@ -3,10 +3,10 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <cassert>
 #include <cstdint>
 
 #include "basis/light_sum.h"
-#include "light/median_cut.h"
 
 namespace illum {
 namespace {
@@ -14,9 +14,6 @@ namespace {
 // Parts of a map that are added up by themselves, then in order: the same sum on any number of
 // threads.
 constexpr int kBands = 16;
-
-// Directions that stand for an environment where each has to be decoded by itself.
-constexpr int kRegions = 256;
 
 }  // namespace
 
@@ -48,12 +45,9 @@ Passes::Passes(const LightBasis& basis, const CodingEntry& coding, Response resp
     passes_.push_back({foldWeights(sum.weights(basis), coding), {}});
     return;
   }
+  assert(environments.empty());
   for (const DirectionalLight& light : lights)
     passes_.push_back({foldWeights(basis, coding, light.toLight), light.intensity});
-  for (const Environment& environment : environments) {
-    for (const DirectionalLight& light : medianCut(environment, kRegions))
-      passes_.push_back({foldWeights(basis, coding, light.toLight), light.intensity});
-  }
 }
 
 void Passes::relight(const TilePlanes& codes, std::size_t first, std::span<float> rgb,

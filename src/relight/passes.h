@@ -21,9 +21,13 @@ struct Pass {
 class Passes {
  public:
   Passes() = default;
-  /// Linear responses: everything in one pass. Others: one for each light.
+  /// Linear responses: everything in one pass. Others: one for each light, and no environments,
+  /// which have to be reduced to lights before (reduceEnvironment).
   Passes(const LightBasis& basis, const CodingEntry& coding, Response response,
          std::span<const DirectionalLight> lights, std::span<const Environment> environments = {});
+
+  /// How often the planes are gone through.
+  int count() const { return static_cast<int>(passes_.size()); }
 
   /// Linear RGB of rgb.size() / 3 texels of a tile from `first` on. `scratch` is used again from
   /// call to call.

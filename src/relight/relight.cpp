@@ -9,11 +9,15 @@
 
 #include "illum/error.h"
 #include "object/manifest.h"
+#include "relight/environment_reduction.h"
 #include "relight/prepared_lights.h"
 #include "relight/tile_cache.h"
 
 namespace illum {
 namespace {
+
+// Of the picture, to judge by how few directions an environment may be stood for.
+constexpr std::size_t kProbeTexels = 1000;
 
 void checkRequest(const Object& object, int group, int level) {
   if (group < 0 || group >= object.groups()) {
@@ -98,11 +102,15 @@ int PreparedLights::group() const {
   return state_->group;
 }
 
+int PreparedLights::passes() const {
+  return state_->distant.count();
+}
+
 PreparedLights Relighter::prepare(const Illumination& lights, int group,
                                   const PrepareOptions& options) const {
   const Object& object = state_->cache.object();
   checkRequest(object, group, 0);
-  const Illumination turned = inGroup(object.view(group), lights);
+  Illumination turned = inGroup(object.view(group), lights);
   const CodingEntry& coding = object.manifest().coding(group);
   const Response response = object.manifest().response;
   auto state = std::make_shared<PreparedLights::State>();

@@ -13,6 +13,7 @@ void addCapture(CLI::App& program, int& exitCode);
 void addConvert(CLI::App& program, int& exitCode);
 void addRelight(CLI::App& program, int& exitCode);
 void addEvaluate(CLI::App& program, int& exitCode);
+void addNormals(CLI::App& program, int& exitCode);
 void addInfo(CLI::App& program, int& exitCode);
 void addVerify(CLI::App& program, int& exitCode);
 

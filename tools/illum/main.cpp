@@ -30,6 +30,7 @@ int run(int argc, char** argv) {
   illum::cli::addRelight(program, exitCode);
   illum::cli::addConvert(program, exitCode);
   illum::cli::addEvaluate(program, exitCode);
+  illum::cli::addNormals(program, exitCode);
   illum::cli::addInfo(program, exitCode);
   illum::cli::addVerify(program, exitCode);
   try {

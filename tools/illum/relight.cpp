@@ -13,6 +13,7 @@
 #include "illum/error.h"
 #include "illum/light_file.h"
 #include "illum/lumigraph.h"
+#include "illum/normals.h"
 #include "illum/picture_io.h"
 #include "input_options.h"
 #include "light_options.h"
@@ -100,7 +101,8 @@ struct RelightCommand {
         ->required();
     command.add_option("--lights", lightFile, "light file: a picture for each of its lines");
     command.add_option("--height", heights,
-                       "picture of z, in units of the object, for lights near a photograph");
+                       "for lights near a photograph: a picture of z, in units of the object, or "
+                       "auto: integrated from the object's own normals");
     command.add_option("--exposure", exposureStops, "in stops");
     command.add_option("--level", level, "0 is full size, each further one half");
     command.add_option("--format", format, "png (default), jpg or exr, with --lights or --path");
@@ -165,9 +167,14 @@ struct RelightCommand {
     }
   }
 
-  PrepareOptions prepareOptions() const {
+  PrepareOptions prepareOptions(const Object& opened, int group, std::uint64_t memoryBytes) const {
     PrepareOptions options;
-    if (!heights.empty()) options.heights = std::make_shared<const Picture>(readPicture(heights));
+    if (heights == "auto") {
+      options.heights = std::make_shared<const Picture>(
+          photographHeights(opened, group, {NormalOptions::Method::Robust, memoryBytes}));
+    } else if (!heights.empty()) {
+      options.heights = std::make_shared<const Picture>(readPicture(heights));
+    }
     return options;
   }
 
@@ -195,7 +202,7 @@ struct RelightCommand {
     const SynthesisOptions synthesis = views.synthesis(opened, choice);
     if (choice.group) {
       return std::make_unique<StoredView>(opened, memoryBytes, *choice.group, level,
-                                          prepareOptions());
+                                          prepareOptions(opened, *choice.group, memoryBytes));
     }
     if (level != 0 || !heights.empty()) {
       throw Error(Fault::Usage,
