@@ -29,7 +29,7 @@ std::vector<float> relit(const MattObject& object, Response response,
                          std::span<const Environment> environments = {}) {
   std::vector<float> rgb(3 * object.codes.tile.pixels()), scratch;
   Passes(object.basis, object.coding, response, lights, environments)
-      .relight(object.codes, 0, rgb, scratch);
+      .relight(object.planes(), 0, rgb, scratch);
   return rgb;
 }
 

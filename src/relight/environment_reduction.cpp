@@ -7,6 +7,7 @@
 #include <span>
 
 #include "light/median_cut.h"
+#include "relight/tile_planes.h"
 
 namespace illum {
 namespace {
@@ -17,6 +18,7 @@ constexpr std::size_t kPart = 64;  // lights that are added up by themselves, th
 std::vector<double> relitProbe(std::span<const DirectionalLight> lights, const LightBasis& basis,
                                const CodingEntry& coding, Response response,
                                const PlaneCodes& probe) {
+  const TilePlanes planes(probe, coding.bits);
   const std::size_t samples = 3 * probe.tile.pixels();
   const std::size_t parts = (lights.size() + kPart - 1) / kPart;
   std::vector<std::vector<double>> sums(parts);
@@ -25,7 +27,7 @@ std::vector<double> relitProbe(std::span<const DirectionalLight> lights, const L
     sums[part].assign(samples, 0);
     const std::size_t end = std::min((part + 1) * kPart, lights.size());
     for (std::size_t n = part * kPart; n < end; ++n) {
-      weightedSum(probe, coding, foldWeights(basis, coding, lights[n].toLight), 0, rgb);
+      weightedSum(planes, coding, foldWeights(basis, coding, lights[n].toLight), 0, rgb);
       applyResponse(response, rgb);
       const LinearRgb& intensity = lights[n].intensity;
       for (std::size_t i = 0; i < samples; i += 3) {

@@ -9,6 +9,7 @@
 #include "codec/tile.h"
 #include "illum/basis_table.h"
 #include "object/manifest.h"
+#include "relight/tile_planes.h"
 
 namespace illum {
 
@@ -18,6 +19,8 @@ struct MattObject {
   LightBasis basis;
   CodingEntry coding;
   PlaneCodes codes;
+
+  TilePlanes planes() const { return {codes, coding.bits}; }
 
   static constexpr double kRange = 2.0 / 65535;
 
@@ -30,6 +33,7 @@ struct MattObject {
       }
     });
     basis = LightBasis(table, {BasisColour::Kind::Full, {}});
+    coding.bits = 16;
     coding.step = kRange;
     coding.offsets = {-1, -1, -1};
     coding.functions = {0, 1, 2};

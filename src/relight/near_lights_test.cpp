@@ -21,7 +21,7 @@ std::vector<double> underNear(const MattObject& object, Response response,
                               const std::vector<Vector3>& points, const Lighting& lighting) {
   const NearLights lights(object.basis, object.coding, response, illuminationOf(lighting).nearby);
   std::vector<float> rgb(3 * points.size());
-  lights.addTo(rgb, object.codes, 0, points);
+  lights.addTo(rgb, object.planes(), 0, points);
   std::vector<double> red;
   for (std::size_t i = 0; i < rgb.size(); i += 3) red.push_back(rgb[i]);
   return red;
@@ -30,7 +30,7 @@ std::vector<double> underNear(const MattObject& object, Response response,
 std::vector<double> underDirectional(const MattObject& object, const DirectionalLight& light) {
   std::vector<float> rgb(3 * object.codes.tile.pixels()), scratch;
   Passes(object.basis, object.coding, Response::Linear, std::span(&light, 1))
-      .relight(object.codes, 0, rgb, scratch);
+      .relight(object.planes(), 0, rgb, scratch);
   std::vector<double> red;
   for (std::size_t i = 0; i < rgb.size(); i += 3) red.push_back(rgb[i]);
   return red;

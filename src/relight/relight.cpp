@@ -76,6 +76,24 @@ Illumination inGroup(const View& view, const Illumination& lights) {
   return turned;
 }
 
+// Directional lights instead of environments, where each direction has to be decoded by itself.
+void reduceEnvironments(const Object& object, int group, const PrepareOptions& options,
+                        Illumination& lights) {
+  if (lights.environments.empty()) return;
+  // The coarsest level is one tile: all of the picture.
+  const PlaneCodes probe =
+      probeOf(object.planeTile(group, object.levels(group) - 1, 0, 0), kProbeTexels);
+  const Manifest& manifest = object.manifest();
+  for (const Environment& environment : lights.environments) {
+    const ReducedEnvironment reduced =
+        reduceEnvironment(environment, object.basis(group), manifest.coding(group),
+                          manifest.response, probe, options.environmentError);
+    lights.directional.insert(lights.directional.end(), reduced.lights.begin(),
+                              reduced.lights.end());
+  }
+  lights.environments.clear();
+}
+
 // Whether lights come down to the same numbers for both groups. A basis belongs to groups that are
 // turned alike, but lights nearby and environments also depend on where the frame is.
 bool areAlike(const Object& object, int one, int other) {
@@ -113,6 +131,7 @@ PreparedLights Relighter::prepare(const Illumination& lights, int group,
   Illumination turned = inGroup(object.view(group), lights);
   const CodingEntry& coding = object.manifest().coding(group);
   const Response response = object.manifest().response;
+  if (response != Response::Linear) reduceEnvironments(object, group, options, turned);
   auto state = std::make_shared<PreparedLights::State>();
   state->object = object;
   state->group = group;
