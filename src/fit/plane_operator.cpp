@@ -1,11 +1,8 @@
-#include <cblas.h>
-
 #include <algorithm>
 #include <cassert>
-#include <limits>
 
-#include "fit/dense.h"
 #include "fit/fit.h"
+#include "fit/plane_kernel.h"
 
 namespace illum {
 
@@ -21,15 +18,8 @@ void PlaneOperator::apply(std::span<const float> samples, std::size_t pixels,
   }
   assert(matrix.size() == rows * inner && offset.size() == rows);
   assert(samples.size() == inner * pixels && out.size() == rows * pixels);
-  assert(pixels <= static_cast<std::size_t>(std::numeric_limits<int>::max()));
   if (pixels == 0 || planes == 0) return;
-  useOneBlasThread();
-  for (std::size_t k = 0; k < rows; ++k) {
-    std::fill_n(out.begin() + static_cast<std::ptrdiff_t>(k * pixels), pixels, offset[k]);
-  }
-  const auto columns = static_cast<int>(pixels), depth = static_cast<int>(inner);
-  cblas_sgemm(CblasRowMajor, CblasNoTrans, CblasNoTrans, planes, columns, depth, 1.0F,
-              matrix.data(), depth, samples.data(), columns, 1.0F, out.data(), columns);
+  sumPlanes({matrix.data(), offset.data(), rows, inner}, samples.data(), pixels, out.data());
 }
 
 }  // namespace illum
