@@ -52,8 +52,7 @@ class PathTracer {
   template <typename Bsdf>
   void addLights(const SurfacePoint& point, const Bsdf& bsdf, const Path& path, bool alsoDrawn,
                  LightSums& sums);
-  std::size_t aimAt(const SurfacePoint& point, const DirectionBatch& directions,
-                    std::size_t count);
+  std::size_t aimAt(const SurfacePoint& point, const DirectionBatch& directions, std::size_t count);
   void addDiscs(const Path& path, LightSums& sums) const;
 
   const RayTree& tree_;
