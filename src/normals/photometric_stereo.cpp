@@ -6,7 +6,7 @@
 namespace illum {
 namespace {
 
-// Chosen on DiLiGenT's cat (docs/quality.md): from 0.15 to 0.5 and 0.35 to 0.55 the mean angle
+// Chosen on DiLiGenT's cat (docs/quality.md): from 0.25 to 0.5 and 0.35 to 0.55 the mean angle
 // changes by a tenth.
 constexpr float kShadow = 0.3F;        // of the bright end: darker is shadow
 constexpr double kBrightEnd = 0.9;     // quantile; above it highlights are common

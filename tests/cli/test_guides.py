@@ -48,7 +48,7 @@ def test_links_lead_somewhere(page):
 def test_every_option_is_in_the_manual(binary):
     """What `--help` offers is explained on some page."""
     manual = "".join(page.read_text() for page in PAGES)
-    for command in ("build", "capture", "relight", "evaluate", "info", "verify"):
+    for command in ("build", "capture", "convert", "evaluate", "info", "normals", "relight", "verify"):
         text = subprocess.run([binary, command, "--help"], capture_output=True, text=True).stdout
         for option in set(re.findall(r"--[a-z][a-z-]+", text)) - {"--help", "--output"}:
             assert option in manual, f"illum {command} {option}"

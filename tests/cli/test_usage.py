@@ -25,6 +25,8 @@ from conftest import BINARY, ROOT
     ["build", "STACK", "-o", "OUT.illum", "--max-memory", "lots"],
     ["build", "STACK", "-o", "OUT.illum", "--tile", "13"],
     ["build", "STACK", "-o", "OUT.illum", "--holdout", "-1"],
+    ["build", "STACK", "-o", "OUT.illum", "--uv", "3x3"],
+    ["build", "STACK", "-o", "OUT.illum", "--samples", "4"],
     ["build", "STACK", "-o", "OUT.illum", "--frobnicate"],
     ["relight", "OBJECT"], ["relight", "OBJECT", "-o", "OUT.png"],
     ["relight", "OBJECT", "--light", "0,0", "-o", "OUT.png"],
@@ -55,7 +57,7 @@ def test_help_is_asked_for(illum, arguments):
 
 def test_every_command_is_in_the_help(illum):
     text = illum("--help").stdout
-    for command in ("build", "relight", "evaluate", "info", "verify"):
+    for command in ("build", "capture", "convert", "evaluate", "info", "normals", "relight", "verify"):
         assert re.search(rf"\b{command}\b", text), text
 
 

@@ -58,6 +58,16 @@ SceneOptions SceneInput::options() const {
   return options;
 }
 
+const char* SceneInput::given() const {
+  if (!uv.empty()) return "--uv";
+  if (size != 0) return "--size";
+  if (lights != 0) return "--light-count";
+  if (lightRadiusDegrees != -1) return "--light-radius";
+  if (samples != 0) return "--samples";
+  if (bounces != -1) return "--bounces";
+  return seed >= 0 ? "--seed" : nullptr;
+}
+
 void InputOptions::addTo(CLI::App& command) {
   const std::string group = "Photographs";
   command.add_option("--light-file", lightFile, "light file, if not the one in the folder")
@@ -99,6 +109,10 @@ std::unique_ptr<Capture> InputOptions::open(std::uint64_t memoryBytes,
                                             const std::filesystem::path& scratch,
                                             Progress& progress) const {
   if (isSceneName(input)) return openScene(input, scene.options(), progress);
+  if (const char* option = scene.given()) {
+    throw Error(Fault::Usage, fmt::format("{}: expected a scene to be rendered, found pictures, {}",
+                                          option, input));
+  }
   PhotographOptions options = photographOptions();
   options.memoryBytes = memoryBytes;
   options.scratch = scratch;

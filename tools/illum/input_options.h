@@ -30,6 +30,8 @@ struct SceneInput {
 
   void addTo(CLI::App& command);
   SceneOptions options() const;
+  /// The name of an option that was given; null if none was.
+  const char* given() const;
 };
 
 /// The options that say what samples are read from, and how.
