@@ -11,16 +11,26 @@ namespace {
 
 // Of a step between neighbours, in widths of a pixel: about 72 degrees.
 constexpr double kSteepestStep = 3;
+// In pixels: where bilinear coverage ends; not quite, or it would touch the next centre.
+constexpr double kFringe = 0.98;
+// Less is an outline, or thinner than a pixel.
+constexpr float kWholly = 0.95F;
 
 class DepthMesh {
  public:
-  DepthMesh(const ViewProjector& view, const Picture& depth, RangeBuffer& buffer)
-      : view_(view), size_(view.size()), buffer_(buffer) {
+  DepthMesh(const ViewProjector& view, const Picture& depth, const Picture* coverage,
+            RangeBuffer& buffer)
+      : view_(view),
+        size_(view.size()),
+        outward_(coverage == nullptr ? kFringe : 0.5),
+        buffer_(buffer) {
     ranges_.resize(size_.pixels());
     vertices_.resize(size_.pixels());
     tbb::parallel_for(0, size_.height, [&](int y) {
       for (int x = 0; x < size_.width; ++x) {
-        const double range = view_.rangeOf(depth.at(x, y, 0));
+        const bool shown =
+            coverage == nullptr || coverage->at(x, y, coverage->channels() - 1) >= kWholly;
+        const double range = shown ? view_.rangeOf(depth.at(x, y, 0)) : kNothing;
         ranges_[at(x, y)] = range > 0 ? range : kNothing;
         if (range < kNothing) {
           vertices_[at(x, y)] = buffer_.vertex(view_.pointAt(x + 0.5, y + 0.5, range));
@@ -89,10 +99,8 @@ class DepthMesh {
   }
 
   void drawSquare(int x, int y) {
-    // Toward nothing up to where bilinear coverage ends; not quite, or it would touch the next
-    // centre.
     const auto reach = [&](int dx, int dy) {
-      return rangeAt(x + dx, y + dy) < kNothing ? 0.5 : 0.98;
+      return rangeAt(x + dx, y + dy) < kNothing ? 0.5 : outward_;
     };
     const double range = rangeAt(x, y);
     const double left = x + 0.5 - reach(-1, 0), right = x + 0.5 + reach(1, 0);
@@ -108,6 +116,7 @@ class DepthMesh {
 
   const ViewProjector& view_;
   Size size_;
+  double outward_;  // how far squares reach toward nothing, in pixels
   RangeBuffer& buffer_;
   std::vector<double> ranges_;
   std::vector<ScreenVertex> vertices_;
@@ -125,8 +134,9 @@ bool isJoined(double before, double a, double b, double after, double steepest) 
   return std::abs(step) <= 2 * sign * stepBefore && std::abs(step) <= 2 * sign * stepAfter;
 }
 
-void drawDepth(const ViewProjector& view, const Picture& depth, RangeBuffer& buffer) {
-  DepthMesh(view, depth, buffer).draw();
+void drawDepth(const ViewProjector& view, const Picture& depth, const Picture* coverage,
+               RangeBuffer& buffer) {
+  DepthMesh(view, depth, coverage, buffer).draw();
 }
 
 }  // namespace illum

@@ -16,6 +16,9 @@ bool isJoined(double before, double a, double b, double after, double steepest);
 
 /// Draws what `view` saw into `buffer`. Pixels beside a cut stand as small squares, so that what is
 /// one pixel wide is not lost; toward nothing they reach one pixel out, where coverage fades.
-void drawDepth(const ViewProjector& view, const Picture& depth, RangeBuffer& buffer);
+/// `coverage`, if there is one: a picture whose last channel it is; then only pixels that are
+/// covered wholly are drawn, and none reaches out.
+void drawDepth(const ViewProjector& view, const Picture& depth, const Picture* coverage,
+               RangeBuffer& buffer);
 
 }  // namespace illum

@@ -58,7 +58,7 @@ TEST(DepthMesh, IsTheSurface) {
     for (const View& to : oneOfEachKind()) {
       const ViewProjector target(to.geometry);
       RangeBuffer buffer(target);
-      drawDepth(projector, source.depth, buffer);
+      drawDepth(projector, source.depth, nullptr, buffer);
       int drawn = 0, wrong = 0;
       for (int y = 0; y < target.size().height; ++y) {
         for (int x = 0; x < target.size().width; ++x) {
@@ -84,7 +84,7 @@ TEST(DepthMesh, CoversEveryPixelOfItsOwnView) {
     const SourceView source = seen(scene, view);
     const ViewProjector projector(view.geometry);
     RangeBuffer buffer(projector);
-    drawDepth(projector, source.depth, buffer);
+    drawDepth(projector, source.depth, nullptr, buffer);
     for (int y = 0; y < source.depth.height(); ++y) {
       for (int x = 0; x < source.depth.width(); ++x) {
         const double expected = projector.rangeOf(source.depth.at(x, y, 0));
@@ -105,7 +105,7 @@ TEST(DepthMesh, BacksAreNotSeen) {
   const SourceView source = seen(scene, front);
   const ViewProjector projector(front.geometry), target(behind.geometry);
   RangeBuffer buffer(target);
-  drawDepth(projector, source.depth, buffer);
+  drawDepth(projector, source.depth, nullptr, buffer);
   for (int y = 0; y < 64; ++y) {
     for (int x = 0; x < 64; ++x) EXPECT_EQ(buffer.range(x, y), kNothing);
   }

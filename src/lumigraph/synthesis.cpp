@@ -181,18 +181,24 @@ std::vector<int> Synthesis::drawnViews(const Rig& rig) const {
   return drawn;
 }
 
+// The outline of one view, where pixels are covered in part, stands before the middle of what
+// another view sees. So outlines, and what is thinner than a pixel, count only where nothing else
+// is.
 void Synthesis::findSurface() {
-  RangeBuffer buffer(target_);
+  RangeBuffer whole(target_), all(target_);
   for (const Rig& rig : rigs_) {
     for (const int view : drawnViews(rig)) {
       const auto depth = source_.depth(view);
-      drawDepth(projectors_[static_cast<std::size_t>(view)], *depth, buffer);
+      const auto picture = source_.picture(view);
+      const ViewProjector& projector = projectors_[static_cast<std::size_t>(view)];
+      drawDepth(projector, *depth, picture.get(), whole);
+      drawDepth(projector, *depth, nullptr, all);
     }
   }
   tbb::parallel_for(0, target_.size().height, [&](int y) {
     const auto points = points_.row(y);
     for (int x = 0; x < target_.size().width; ++x) {
-      const double range = buffer.range(x, y);
+      const double range = whole.range(x, y) < kNothing ? whole.range(x, y) : all.range(x, y);
       points[static_cast<std::size_t>(x)] = range < kNothing
                                                 ? target_.pointAt(x + 0.5, y + 0.5, range)
                                                 : Vector3{kNothing, kNothing, kNothing};

@@ -163,6 +163,24 @@ TEST_F(Slab, MovesAsARigidThing) {
   EXPECT_GT(decibels(before, after), 60);
 }
 
+// Outlines of one view stand before what another one sees. What is covered in part there must not
+// make holes.
+TEST(CoarseSlab, OutlinesOfItsViewsMakeNoHolesInThings) {
+  AnalyticScene scene;
+  scene.radius = 0;
+  std::vector<SourceView> views = seenBySlab(scene, testSlab(2, kPixels));
+  SourceView& outlined = views.front();
+  for (int y = 40; y < 56; ++y) {
+    for (int c = 0; c < 4; ++c) outlined.picture.at(48, y, c) *= 0.1F;
+    outlined.depth.at(48, y, 0) += 0.3F;
+  }
+  const PinholeCamera target = cameraAt({-0.4, -0.4, 3}, {0, 0, 0}, kPixels);
+  const SynthesisedView found = synthesise(*viewSource(views), target);
+  for (int y = 24; y < 72; ++y) {
+    for (int x = 24; x < 72; ++x) ASSERT_GT(found.picture.at(x, y, 3), 0.8F) << x << "," << y;
+  }
+}
+
 TEST(Slabs, MeetWithoutASeam) {
   // Two slabs at right angles, view points meeting in the edge between them.
   LightSlab front = testSlab(5, kPixels), right = front;
