@@ -177,6 +177,50 @@ void addCaptureFiles(const fs::path& folder) {
   corpus.add(textOf(file));
 }
 
+void addScenes(const fs::path& folder) {
+  Corpus scenes(folder / "scene_fuzz");
+  scenes.add(R"({"illumScene":1,"meshes":[{"shape":"teapot","material":"clay"},{"file":"a.glb",)"
+             R"("place":{"move":[0,1,0],"turn":[0,90,0],"scale":2}}],"materials":{"clay":)"
+             R"({"baseColour":[0.5,0.4,0.3],"roughness":0.4,"metallic":0}},"samples":4,)"
+             R"("views":[{"slab":{"viewPoints":[3,3],"pixels":[64,48]}}],)"
+             R"("lights":{"polar":[20,20],"radiusDegrees":2}})");
+  scenes.add(R"({"illumScene":1,"meshes":[{"shape":"box"}],"views":[{"turn":{"slabs":8}},)"
+             R"({"camera":{"eye":[0,0,4]}},{"panorama":{"projection":"cylindrical"}}],)"
+             R"("lights":{"directions":[[0,0,1],[1,0,1]]},"bounces":2,"seed":7})");
+  scenes.add(R"({"illumScene":1,"curves":[{"lines":[[[0,0,0],[0,1,0]]],"radius":[0.01,0]}],)"
+             R"("lights":{"fibonacci":9,"sphere":true}})");
+  Corpus plys(folder / "ply_fuzz");
+  plys.add(
+      "ply\nformat ascii 1.0\ncomment c\nelement vertex 4\nproperty float x\n"
+      "property float y\nproperty float z\nproperty uchar red\nproperty uchar green\n"
+      "property uchar blue\nelement face 1\nproperty list uchar int vertex_indices\n"
+      "end_header\n0 0 0 255 0 0\n1 0 0 0 255 0\n1 1 0 0 0 255\n0 1 0 9 9 9\n4 0 1 2 3\n");
+  std::string binary =
+      "ply\nformat binary_little_endian 1.0\nelement vertex 3\nproperty float x\n"
+      "property float y\nproperty float z\nelement face 1\n"
+      "property list uchar uint vertex_index\nend_header\n";
+  for (const float value : {0.0F, 0.0F, 0.0F, 1.0F, 0.0F, 0.0F, 0.0F, 1.0F, 0.0F})
+    binary.append(reinterpret_cast<const char*>(&value), sizeof value);
+  binary.append("\3\0\0\0\0\1\0\0\0\2\0\0\0", 13);
+  plys.add(binary);
+  Corpus hairs(folder / "hair_fuzz");
+  hairs.add("# two hairs\n0 0 0\n0,0.5,0.1\n0 1 0.3\n\n1 0 0\r\n1e-3 1 -2.5\n");
+  Corpus gltfs(folder / "gltf_fuzz");
+  const std::string gltf =
+      R"({"asset":{"version":"2.0"},"extensionsUsed":["KHR_materials_ior","OWN"],"cameras":[{}],)"
+      R"("animations":[{}],"skins":[{}],"meshes":[{"primitives":[{"targets":[{}]}]}]})";
+  gltfs.add(gltf);
+  gltfs.add(R"({"asset":{"version":"2.0"},"extensionsRequired":["KHR_draco_mesh_compression"]})");
+  std::string glb("glTF\2\0\0\0", 8);
+  const auto add32 = [&](std::size_t value) {
+    for (int shift = 0; shift < 32; shift += 8)
+      glb.push_back(static_cast<char>(value >> shift & 0xff));
+  };
+  add32(20 + gltf.size());
+  add32(gltf.size());
+  gltfs.add(glb + "JSON" + gltf);
+}
+
 }  // namespace
 }  // namespace illum
 
@@ -192,6 +236,7 @@ int main(int argc, char** argv) {
     illum::addCameraLists(argv[1]);
     illum::addLightingFiles(argv[1]);
     illum::addCameras(argv[1]);
+    illum::addScenes(argv[1]);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "%s\n", error.what());
     return 1;
