@@ -10,6 +10,7 @@
 #include "illum/colour.h"
 #include "illum/error.h"
 #include "object/manifest.h"
+#include "study/evaluation_text.h"
 
 namespace illum {
 namespace {
@@ -19,30 +20,66 @@ std::string photographsOf(Size size) {
          " pixels";
 }
 
-void checkComparable(const Object& object, const Capture& truth) {
-  if (object.size() != truth.size())
-    throw inputError(object.path(), photographsOf(object.size()) + " to judge it by",
-                     photographsOf(truth.size()));
-  if (truth.lights().empty()) throw inputError(object.path(), "photographs to judge it by", "none");
+/// How far two poses that were written down once may lie apart after rounding: radians, and a share
+/// of the distance from the origin.
+constexpr double kSamePose = 1e-4;
+
+/// Whether both look through their corners alike.
+bool seeTheSame(const ViewGeometry& a, const ViewGeometry& b) {
+  const Size size = sizeOf(a);
+  const double width = size.width, height = size.height;
+  for (const PixelPosition corner :
+       {PixelPosition{0, 0}, {width, 0}, {0, height}, {width, height}}) {
+    const Ray one = rayThrough(a, corner), other = rayThrough(b, corner);
+    if (length(one.direction - other.direction) > kSamePose ||
+        length(one.origin - other.origin) > kSamePose * (1 + length(one.origin)))
+      return false;
+  }
+  return true;
+}
+
+std::string quoted(const std::string& name) {
+  constexpr std::size_t kLongest = 60;
+  return "\"" + printableName(name, kLongest) + "\"";
+}
+
+/// The object's view of that name.
+int viewOfName(const Object& object, const View& wanted) {
+  for (int group = 0; group < object.groups(); ++group)
+    if (object.view(group).name == wanted.name) return group;
+  const bool one = object.groups() == 1;
+  throw inputError(
+      object.path(), "a view " + quoted(wanted.name) + " as the capture has",
+      one ? "only " + quoted(object.view(0).name)
+          : "none of that name among its " + std::to_string(object.groups()) + " views");
+}
+
+void checkSize(const Object& object, const Capture& truth, ViewPair pair) {
+  const Size expected = object.size(pair.object), found = truth.size(pair.truth);
+  if (expected == found) return;
+  const std::string& name = object.view(pair.object).name;
+  const std::string judged = truth.groups() == 1 ? "it" : "its view " + quoted(name);
+  throw inputError(object.path(), photographsOf(expected) + " to judge " + judged + " by",
+                   photographsOf(found));
 }
 
 /// For the object's decoded tiles: all of them if they take no more than half of the memory, else
 /// one row of them, which serves all lights of a step.
-std::uint64_t tileBytesOf(const Object& object, std::uint64_t memoryBytes) {
-  const Size size = object.size();
+std::uint64_t tileBytesOf(const Object& object, int group, std::uint64_t memoryBytes) {
+  const Size size = object.size(group);
   const std::uint64_t bytesPerPixel =
-      static_cast<std::uint64_t>(object.planes()) * sizeof(std::uint16_t);
+      static_cast<std::uint64_t>(object.planes(group)) * sizeof(std::uint16_t);
   const std::uint64_t all = bytesPerPixel * size.pixels();
   return all <= memoryBytes / 2 ? all
                                 : bytesPerPixel * Size{size.width, object.manifest().tile}.pixels();
 }
 
 /// The alpha of any relit picture is the object's mask.
-BytePicture coverageOf(const Relighter& relighter, const std::vector<Rectangle>& steps, Size size) {
-  BytePicture coverage(size, 1);
+BytePicture coverageOf(const Relighter& relighter, int group, const std::vector<Rectangle>& steps) {
+  BytePicture coverage({steps.back().width, steps.back().bottom()}, 1);
   for (const Rectangle& rows : steps) {
-    const Picture relit = relighter.relightRegion({}, rows);
-    const auto out = coverage.samples().subspan(Size{size.width, rows.y}.pixels());
+    const Picture relit = relighter.relightRegion({}, rows, group);
+    const auto out = coverage.samples().subspan(Size{rows.width, rows.y}.pixels());
     for (std::size_t pixel = 0; pixel < rows.pixels(); ++pixel)
       out[pixel] = byteFromUnit(relit.samples()[4 * pixel + 3]);
   }
@@ -59,26 +96,45 @@ Picture withoutAlpha(const Picture& relit) {
 
 }  // namespace
 
-Comparison::Comparison(const Object& object, const Capture& truth, std::uint64_t memoryBytes)
+std::vector<ViewPair> comparableViews(const Object& object, const Capture& truth) {
+  if (truth.lights().empty()) throw inputError(object.path(), "photographs to judge it by", "none");
+  const bool oneEach = object.groups() == 1 && truth.groups() == 1;
+  std::vector<ViewPair> pairs;
+  for (int i = 0; i < truth.groups(); ++i) {
+    const View& view = truth.views()[static_cast<std::size_t>(i)];
+    const ViewPair pair{i, oneEach ? 0 : viewOfName(object, view)};
+    checkSize(object, truth, pair);
+    // An object converted to another grid of view points has the old names for new places.
+    if (!oneEach && !seeTheSame(object.view(pair.object).geometry, view.geometry))
+      throw inputError(object.path(), "its view " + quoted(view.name) + " where the capture has it",
+                       "it elsewhere");
+    pairs.push_back(pair);
+  }
+  return pairs;
+}
+
+Comparison::Comparison(const Object& object, const Capture& truth, ViewPair view,
+                       std::uint64_t memoryBytes)
     : object_(object),
       truth_(truth),
-      steps_(stepsDown(truth, object.manifest().tile)),
+      view_(view),
+      steps_(stepsDown(truth, view.truth, object.manifest().tile)),
       memoryBytes_(memoryBytes > 0 ? memoryBytes : machineMemoryBytes() / 4),
-      tileBytes_(tileBytesOf(object, memoryBytes_)),
+      tileBytes_(tileBytesOf(object, view.object, memoryBytes_)),
       relighter_(object, tileBytes_) {
-  checkComparable(object, truth);
-  coverage_ = illum::coverageOf(truth);
+  coverage_ = illum::coverageOf(truth, view.truth);
   if (coverage_.empty() && object.manifest().mask)
-    coverage_ = coverageOf(relighter_, steps_, truth.size());
+    coverage_ = coverageOf(relighter_, view.object, steps_);
 }
 
 ComparedBand Comparison::compared(int light, const Rectangle& rows) const {
   const DirectionalLight& source = truth_.lights().at(static_cast<std::size_t>(light)).light;
-  Picture relit = relighter_.relightRegion({&source, 1}, rows);
+  Picture relit = relighter_.relightRegion({&source, 1}, rows, view_.object);
   if (relit.channels() == 4) relit = withoutAlpha(relit);
   BytePicture bytes = displayBytes(relit);
   return {std::move(relit), std::move(bytes),
-          readPhotograph(truth_, light, rows, object_.manifest().mask ? coverage_ : BytePicture())};
+          readPhotograph(truth_, view_.truth, light, rows,
+                         object_.manifest().mask ? coverage_ : BytePicture())};
 }
 
 int Comparison::lightsAtOnce(std::uint64_t keptBytes) const {

@@ -21,16 +21,28 @@ struct ComparedBand {
   PhotographBand photograph;
 };
 
-/// Relit pictures and photographs side by side. If the object has a mask, both are multiplied by
-/// coverage: the relit picture by the object's, the photograph by the capture's (by the object's,
-/// if the capture has none).
+/// A view of a capture, and the object's view that shows the same: indices.
+struct ViewPair {
+  int truth = 0, object = 0;
+};
+
+/// A pair for each view of `truth`, in its order. The name says which view of the object is meant;
+/// where both have one view only, that is the one. Throws Error (Fault::Input) if there is no such
+/// view, or one of another size or place, or no light.
+std::vector<ViewPair> comparableViews(const Object& object, const Capture& truth);
+
+/// Relit pictures and photographs of one view side by side. If the object has a mask, both are
+/// multiplied by coverage: the relit picture by the object's, the photograph by the capture's (by
+/// the object's, if the capture has none).
 class Comparison {
  public:
-  /// Keeps references. `memoryBytes`: what judging may hold together with the capture; 0 = a
-  /// quarter of the machine. Throws Error (Fault::Input) if the sizes differ or there is no light.
-  Comparison(const Object& object, const Capture& truth, std::uint64_t memoryBytes);
+  /// Keeps references. `view`: one of comparableViews(). `memoryBytes`: what judging may hold
+  /// together with the capture; 0 = a quarter of the machine.
+  Comparison(const Object& object, const Capture& truth, ViewPair view, std::uint64_t memoryBytes);
 
   const Capture& truth() const { return truth_; }
+  const ViewPair& view() const { return view_; }
+  Size size() const { return truth_.size(view_.truth); }
   /// 1 channel; empty if neither side has a mask.
   const BytePicture& coverage() const { return coverage_; }
 
@@ -48,6 +60,7 @@ class Comparison {
 
   const Object& object_;
   const Capture& truth_;
+  ViewPair view_;
   std::vector<Rectangle> steps_;
   std::uint64_t memoryBytes_, tileBytes_;
   Relighter relighter_;

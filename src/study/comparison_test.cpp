@@ -65,7 +65,7 @@ TEST(Comparison, BandsOfALightComeInOrderFromTheTop) {
   const Object object = makeObject(folder.path() / "a.illum", maskedObject());
   FakeCapture capture = photographs();
   capture.withBandRows(8);
-  const Comparison comparison(object, capture, 0);
+  const Comparison comparison(object, capture, {}, 0);
   const std::vector<int> lights{2, 0};
   std::vector<int> next(2, 0);
   std::mutex mutex;
@@ -87,7 +87,7 @@ TEST(Comparison, BothSidesAreOverBlack) {
   const TemporaryFolder folder("black");
   const Object object = makeObject(folder.path() / "a.illum", maskedObject());
   const FakeCapture capture = photographs();
-  const Comparison comparison(object, capture, 0);
+  const Comparison comparison(object, capture, {}, 0);
   const std::vector<int> lights{0};
   Progress progress;
   comparison.forEachBand(lights, 0, progress, [&](std::size_t, const ComparedBand& band) {

@@ -1,6 +1,8 @@
 #include "illum/evaluate.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <numeric>
 #include <span>
 
@@ -30,10 +32,10 @@ bool isHeldOut(const LightFileEntry& light, const Manifest& manifest) {
   return !fitted;
 }
 
-/// The figures of one light, gathered from the top of the picture to its bottom.
-class LightJudge {
+/// The figures of one picture, gathered from its top to its bottom.
+class PictureJudge {
  public:
-  LightJudge(Size size, std::span<const std::uint8_t> inside) : pictures_(size, inside) {}
+  PictureJudge(Size size, std::span<const std::uint8_t> inside) : pictures_(size, inside) {}
 
   void add(const ComparedBand& band) {
     pictures_.addRows(band.relitBytes, band.photograph.bytes);
@@ -43,17 +45,10 @@ class LightJudge {
       linear_.add(double{relit[i]} - double{photograph[i]});
   }
 
-  LightResult result(const LightFileEntry& light, const Manifest& manifest) const {
+  PictureResult result(int view, int light) const {
     const MaskedErrors errors = pictures_.errors();
-    LightResult result;
-    result.name = light.name;
-    result.direction = light.light.toLight;
-    result.heldOut = isHeldOut(light, manifest);
-    result.all = errors.all;
-    result.masked = errors.inside;
-    result.linearRms = linear_.rms();
-    result.linearPsnrDecibels = psnrDecibels(linear_.mean(), 1);
-    return result;
+    return {
+        {errors.all, errors.inside, linear_.rms(), psnrDecibels(linear_.mean(), 1)}, view, light};
   }
 
  private:
@@ -69,60 +64,128 @@ std::vector<std::uint8_t> insideOf(const BytePicture& coverage) {
   return inside;
 }
 
-void addTo(PictureError& sum, const PictureError& error, double weight) {
-  sum.psnrDecibels += weight * error.psnrDecibels;
-  sum.ssim += weight * error.ssim;
-  sum.rms += weight * error.rms;
+/// Calls use(a's figure, b's figure, ...) for each figure.
+template <typename Use, typename... Some>
+void forEachFigure(Use use, Some&... some) {
+  use(some.all.psnrDecibels...);
+  use(some.all.ssim...);
+  use(some.all.rms...);
+  use(some.masked.psnrDecibels...);
+  use(some.masked.ssim...);
+  use(some.masked.rms...);
+  use(some.linearRms...);
+  use(some.linearPsnrDecibels...);
 }
 
-ErrorSummary summarise(const std::vector<LightResult>& lights, bool heldOut) {
-  ErrorSummary summary;
-  for (const LightResult& light : lights) summary.lights += light.heldOut == heldOut;
-  const double weight = 1.0 / std::max(1, summary.lights);
-  for (const LightResult& light : lights) {
-    if (light.heldOut != heldOut) continue;
-    addTo(summary.all, light.all, weight);
-    addTo(summary.masked, light.masked, weight);
-    summary.linearRms += weight * light.linearRms;
-    summary.linearPsnrDecibels += weight * light.linearPsnrDecibels;
+using Pictures = std::vector<const PictureResult*>;
+
+/// Each figure's mean over the pictures that have it: a mask may leave some views empty.
+Figures meanOf(const Pictures& pictures) {
+  Figures weights, mean;
+  if (pictures.empty()) return mean;
+  for (const PictureResult* picture : pictures)
+    forEachFigure([](double& count, double figure) { count += !std::isnan(figure); }, weights,
+                  *picture);
+  const auto start = [](double& weight, double& sum) {
+    sum = weight > 0 ? 0 : std::numeric_limits<double>::quiet_NaN();
+    weight = 1 / std::max(1.0, weight);
+  };
+  forEachFigure(start, weights, mean);
+  const auto add = [](double& sum, double weight, double figure) {
+    if (!std::isnan(figure)) sum += weight * figure;
+  };
+  for (const PictureResult* picture : pictures) forEachFigure(add, mean, weights, *picture);
+  return mean;
+}
+
+/// Of the pictures of `first` to `last` (indices), those under lights that are held out or not.
+ErrorSummary summarise(const Evaluation& evaluation, std::size_t first, std::size_t last,
+                       bool heldOut) {
+  Pictures chosen;
+  for (std::size_t i = first; i < last; ++i) {
+    const PictureResult& picture = evaluation.pictures[i];
+    if (evaluation.lights[static_cast<std::size_t>(picture.light)].heldOut == heldOut)
+      chosen.push_back(&picture);
   }
-  return summary;
+  const auto lights =
+      std::count_if(evaluation.lights.begin(), evaluation.lights.end(),
+                    [heldOut](const LightResult& light) { return light.heldOut == heldOut; });
+  return {meanOf(chosen), static_cast<int>(lights)};
 }
 
-std::vector<LightResult> judgeAll(const Comparison& comparison, const Manifest& manifest,
-                                  Progress& progress) {
-  const std::vector<LightFileEntry>& lights = comparison.truth().lights();
-  const Size size = comparison.truth().size();
+void addMeans(Evaluation& evaluation) {
+  const std::size_t lights = evaluation.lights.size(), pictures = evaluation.pictures.size();
+  for (std::size_t light = 0; light < lights; ++light) {
+    Pictures under;
+    for (std::size_t i = light; i < pictures; i += lights) under.push_back(&evaluation.pictures[i]);
+    static_cast<Figures&>(evaluation.lights[light]) = meanOf(under);
+  }
+  for (std::size_t view = 0; view < evaluation.views.size(); ++view) {
+    const std::size_t first = view * lights, last = first + lights;
+    evaluation.views[view].used = summarise(evaluation, first, last, false);
+    evaluation.views[view].heldOut = summarise(evaluation, first, last, true);
+  }
+  evaluation.used = summarise(evaluation, 0, pictures, false);
+  evaluation.heldOut = summarise(evaluation, 0, pictures, true);
+}
+
+/// One view under all lights.
+void judge(const Comparison& comparison, Progress& progress, Evaluation& evaluation) {
+  const std::size_t lights = comparison.truth().lights().size();
+  const Size size = comparison.size();
   const std::vector<std::uint8_t> inside = insideOf(comparison.coverage());
-  std::vector<int> indices(lights.size());
+  std::vector<int> indices(lights);
   std::iota(indices.begin(), indices.end(), 0);
-  std::vector<LightJudge> judges(lights.size(), LightJudge(size, inside));
-
-  progress.begin("judging " + std::to_string(lights.size()) + " lights",
-                 comparison.stepCount() * lights.size());
-  comparison.forEachBand(indices, inside.size() + lights.size() * ssimScanBytes(size), progress,
+  std::vector<PictureJudge> judges(lights, PictureJudge(size, inside));
+  comparison.forEachBand(indices, inside.size() + lights * ssimScanBytes(size), progress,
                          [&](std::size_t i, const ComparedBand& band) { judges[i].add(band); });
-  progress.end();
+  for (const int light : indices)
+    evaluation.pictures.push_back(
+        judges[static_cast<std::size_t>(light)].result(comparison.view().truth, light));
+  evaluation.hasMask = evaluation.hasMask || !comparison.coverage().empty();
+}
 
-  std::vector<LightResult> results;
-  for (std::size_t i = 0; i < lights.size(); ++i)
-    results.push_back(judges[i].result(lights[i], manifest));
-  return results;
+void beginJudging(const std::vector<ViewPair>& views, const Object& object, const Capture& truth,
+                  Progress& progress) {
+  const std::size_t lights = truth.lights().size();
+  std::uint64_t steps = 0;
+  for (const ViewPair& view : views)
+    steps += stepsDown(truth, view.truth, object.manifest().tile).size();
+  const std::string under = std::to_string(lights) + " lights";
+  progress.begin(
+      "judging " +
+          (views.size() == 1 ? under : std::to_string(views.size()) + " views under " + under),
+      steps * lights);
+}
+
+double bitsPerPixelOf(const Object& object) {
+  double pixels = 0;
+  for (int group = 0; group < object.groups(); ++group)
+    pixels += static_cast<double>(object.size(group).pixels());
+  return 8 * static_cast<double>(object.fileBytes()) / pixels;
 }
 
 }  // namespace
 
 Evaluation evaluate(const Object& object, const Capture& truth, Progress& progress,
                     std::uint64_t memoryBytes) {
-  const Comparison comparison(object, truth, memoryBytes);
+  const std::vector<ViewPair> views = comparableViews(object, truth);
   Evaluation evaluation;
-  evaluation.lights = judgeAll(comparison, object.manifest(), progress);
-  evaluation.used = summarise(evaluation.lights, false);
-  evaluation.heldOut = summarise(evaluation.lights, true);
-  evaluation.hasMask = !comparison.coverage().empty();
+  for (const LightFileEntry& light : truth.lights())
+    evaluation.lights.push_back(
+        {{}, light.name, light.light.toLight, isHeldOut(light, object.manifest())});
+  beginJudging(views, object, truth, progress);
+  // One after the other: a capture of many views opens few of them at a time.
+  for (const ViewPair& view : views) {
+    const Comparison comparison(object, truth, view, memoryBytes);
+    const std::string& name = truth.views()[static_cast<std::size_t>(view.truth)].name;
+    evaluation.views.push_back({name, comparison.size(), {}, {}});
+    judge(comparison, progress, evaluation);
+  }
+  progress.end();
+  addMeans(evaluation);
   evaluation.bytes = object.fileBytes();
-  evaluation.bitsPerPixel =
-      8 * static_cast<double>(evaluation.bytes) / static_cast<double>(object.size().pixels());
+  evaluation.bitsPerPixel = bitsPerPixelOf(object);
   return evaluation;
 }
 

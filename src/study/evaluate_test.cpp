@@ -233,6 +233,154 @@ TEST(Evaluate, AnotherSizeIsAnError) {
   }
 }
 
+/// Three views, each wrong by one more under each further light, and by four more than the view
+/// before.
+struct ThreeViews {
+  std::vector<LightFileEntry> lights = ringOfLights(3);
+  FlatObject object{kSize, pattern, lights, {1}, {}, rowOfCameras(3, kSize), 7};
+  FakeCapture capture{object.views, lights, sample};
+
+  static float sample(int view, int light, int x, int y, int c) {
+    return unit(pattern(x, y, c) + 7 * view + error(view, light));
+  }
+  static int error(int view, int light) { return 1 + light + 4 * view; }
+  static double decibels(int view, int light) {
+    return 20 * std::log10(255.0 / error(view, light));
+  }
+};
+
+TEST(EvaluateViews, EveryViewIsJudgedUnderEveryLight) {
+  const TemporaryFolder folder("views");
+  const ThreeViews three;
+  const Object object = makeObject(folder.path() / "a.illum", three.object);
+  const Evaluation evaluation = judged(object, three.capture);
+  ASSERT_EQ(evaluation.pictures.size(), 9u);
+  ASSERT_EQ(evaluation.views.size(), 3u);
+  ASSERT_EQ(evaluation.lights.size(), 3u);
+  double used = 0;
+  for (int view = 0; view < 3; ++view) {
+    for (int light = 0; light < 3; ++light) {
+      const auto& picture = evaluation.pictures[static_cast<std::size_t>(3 * view + light)];
+      EXPECT_EQ(picture.view, view);
+      EXPECT_EQ(picture.light, light);
+      EXPECT_NEAR(picture.all.psnrDecibels, ThreeViews::decibels(view, light), 1e-9);
+      if (light != 1) used += ThreeViews::decibels(view, light) / 6;
+    }
+    const ViewResult& result = evaluation.views[static_cast<std::size_t>(view)];
+    EXPECT_EQ(result.name, "front" + std::to_string(view));
+    EXPECT_EQ(result.size, (Size{150 + 2 * view, 70}));
+    EXPECT_EQ(result.used.lights, 2);
+    EXPECT_NEAR(result.heldOut.all.psnrDecibels, ThreeViews::decibels(view, 1), 1e-9);
+  }
+  const double heldOut =
+      (ThreeViews::decibels(0, 1) + ThreeViews::decibels(1, 1) + ThreeViews::decibels(2, 1)) / 3;
+  EXPECT_NEAR(evaluation.used.all.psnrDecibels, used, 1e-9);
+  EXPECT_NEAR(evaluation.heldOut.all.psnrDecibels, heldOut, 1e-9);
+  EXPECT_NEAR(evaluation.lights[1].all.psnrDecibels, heldOut, 1e-9);
+  EXPECT_EQ(evaluation.heldOut.lights, 1) << "lights, not pictures";
+  EXPECT_NEAR(evaluation.bitsPerPixel,
+              8.0 * static_cast<double>(evaluation.bytes) / ((150 + 152 + 154) * 70), 1e-9);
+}
+
+TEST(EvaluateViews, ViewsAreMatchedByTheirNames) {
+  const TemporaryFolder folder("names");
+  const ThreeViews three;
+  const Object object = makeObject(folder.path() / "a.illum", three.object);
+  // The last two alone, in the other order.
+  const FakeCapture capture({three.object.views[2], three.object.views[1]}, three.lights,
+                            [](int view, int light, int x, int y, int c) {
+                              return ThreeViews::sample(2 - view, light, x, y, c);
+                            });
+  const Evaluation evaluation = judged(object, capture);
+  EXPECT_EQ(evaluation.views[0].name, "front2");
+  EXPECT_NEAR(evaluation.pictures[0].all.psnrDecibels, ThreeViews::decibels(2, 0), 1e-9);
+  EXPECT_NEAR(evaluation.pictures[5].all.psnrDecibels, ThreeViews::decibels(1, 2), 1e-9);
+}
+
+TEST(EvaluateViews, OneViewIsComparedWhateverItsName) {
+  const TemporaryFolder folder("one");
+  const auto lights = ringOfLights(2);
+  FlatObject flat{kSize, pattern, lights, {}};
+  flat.views = rowOfCameras(1, kSize);
+  const Object object = makeObject(folder.path() / "a.illum", flat);
+  const FakeCapture capture(kSize, Transfer::Display, lights,
+                            [](int, int x, int y, int c) { return unit(pattern(x, y, c)); });
+  EXPECT_EQ(judged(object, capture).used.all.psnrDecibels, 99);
+}
+
+TEST(EvaluateViews, AViewAfterTheOtherIsReadOnceFromTheTop) {
+  const TemporaryFolder folder("order");
+  ThreeViews three;
+  three.capture.withBandRows(16);
+  const Object object = makeObject(folder.path() / "a.illum", three.object);
+  CountingProgress progress;
+  const Evaluation evaluation = evaluate(object, three.capture, progress, 1);
+  EXPECT_EQ(three.capture.backwardReads(), 0);
+  EXPECT_EQ(three.capture.reads(), 3 * 3 * 5);
+  EXPECT_EQ(progress.total_, 45u);
+  EXPECT_EQ(progress.done_, 45u);
+  const Evaluation expected = judged(object, three.capture);
+  EXPECT_EQ(evaluation.used.all.ssim, expected.used.all.ssim);
+}
+
+TEST(EvaluateViews, AMaskThatLeavesAViewEmptyIsNoPartOfMaskedMeans) {
+  const TemporaryFolder folder("emptyview");
+  ThreeViews three;
+  const Object object = makeObject(folder.path() / "a.illum", three.object);
+  // Only the third view is as wide as this.
+  three.capture.withMask([](int x, int) { return x < 152 ? 0.0f : 1.0f; });
+  const Evaluation evaluation = judged(object, three.capture);
+  EXPECT_TRUE(std::isnan(evaluation.views[0].used.masked.psnrDecibels));
+  EXPECT_NEAR(evaluation.heldOut.masked.psnrDecibels, ThreeViews::decibels(2, 1), 1e-9);
+  EXPECT_TRUE(std::isnan(evaluation.heldOut.masked.ssim)) << "no window is centred so far right";
+  EXPECT_NEAR(evaluation.lights[1].masked.psnrDecibels, ThreeViews::decibels(2, 1), 1e-9);
+}
+
+void expectRefused(const Object& object, const Capture& capture,
+                   const std::vector<std::string>& words) {
+  try {
+    judged(object, capture);
+    ADD_FAILURE() << "no error";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.fault(), Fault::Input);
+    for (const std::string& word : words) EXPECT_THAT(error.what(), testing::HasSubstr(word));
+  }
+}
+
+TEST(EvaluateViews, AViewThatTheObjectLacksIsAnErrorBeforeAnythingIsRead) {
+  const TemporaryFolder folder("lacks");
+  const ThreeViews three;
+  const Object object = makeObject(folder.path() / "a.illum", three.object);
+  std::vector<View> views = three.object.views;
+  views[2].name = "back\n";
+  const FakeCapture capture(views, three.lights, ThreeViews::sample);
+  expectRefused(object, capture, {"a.illum", "\"back?\"", "3 views"});
+  EXPECT_EQ(capture.reads(), 0);
+}
+
+TEST(EvaluateViews, PhotographsOfOneViewDoNotJudgeAnObjectOfMany) {
+  const TemporaryFolder folder("stack");
+  const ThreeViews three;
+  const Object object = makeObject(folder.path() / "a.illum", three.object);
+  const FakeCapture capture(kSize, Transfer::Display, three.lights,
+                            [](int, int, int, int) { return 0.0f; });
+  expectRefused(object, capture, {"a.illum", "\"fake\""});
+}
+
+TEST(EvaluateViews, AnotherSizeOrPlaceIsAnError) {
+  const TemporaryFolder folder("viewsize");
+  const ThreeViews three;
+  const Object object = makeObject(folder.path() / "a.illum", three.object);
+  std::vector<View> views = three.object.views;
+  std::get<PinholeCamera>(views[1].geometry).size.width = 99;
+  expectRefused(object, FakeCapture(views, three.lights, ThreeViews::sample),
+                {"a.illum", "\"front1\"", "152x70", "99x70"});
+  views = three.object.views;
+  std::get<PinholeCamera>(views[1].geometry).objectFromCamera.translation.y = 0.01;
+  expectRefused(object, FakeCapture(views, three.lights, ThreeViews::sample),
+                {"a.illum", "\"front1\"", "elsewhere"});
+}
+
 TEST(Evaluate, NoLightIsAnError) {
   const TemporaryFolder folder("none");
   const Object object =

@@ -8,7 +8,8 @@
 
 namespace illum {
 
-/// One light for each PSNR, on a ring; every third is held out. Summaries are those of the figures.
+/// One view under one light for each PSNR, on a ring; every third is held out. Summaries are those
+/// of the figures.
 inline Evaluation madeUpEvaluation(const std::vector<double>& decibels) {
   Evaluation evaluation;
   const int count = static_cast<int>(decibels.size());
@@ -22,6 +23,7 @@ inline Evaluation madeUpEvaluation(const std::vector<double>& decibels) {
     light.linearPsnrDecibels = 33;
     light.linearRms = 0.0224;
     evaluation.lights.push_back(light);
+    evaluation.pictures.push_back({light, 0, i});
     ErrorSummary& summary = light.heldOut ? evaluation.heldOut : evaluation.used;
     const double weight = 1.0 / ++summary.lights;
     summary.all.psnrDecibels += weight * (light.all.psnrDecibels - summary.all.psnrDecibels);
@@ -31,6 +33,7 @@ inline Evaluation madeUpEvaluation(const std::vector<double>& decibels) {
     summary.linearPsnrDecibels = light.linearPsnrDecibels;
     summary.linearRms = light.linearRms;
   }
+  evaluation.views.push_back({"front", {40, 30}, evaluation.used, evaluation.heldOut});
   evaluation.bytes = 123456;
   evaluation.bitsPerPixel = 4.5;
   return evaluation;

@@ -30,7 +30,6 @@ Json jsonOf(const PictureError& error) {
 }
 
 /// What a summary and a single light have in common.
-template <typename Figures>
 void addFigures(const Figures& figures, bool hasMask, Json& json) {
   json.update(jsonOf(figures.all));
   json["linear"] = {{"psnr", numberOrNull(figures.linearPsnrDecibels)},
@@ -56,6 +55,27 @@ Json jsonOf(const LightResult& light, bool hasMask) {
   return json;
 }
 
+/// The same for each view; its lights in the order of Evaluation::lights.
+Json jsonOfViews(const Evaluation& evaluation) {
+  Json json = Json::array();
+  for (const ViewResult& view : evaluation.views)
+    json.push_back({{"name", view.name},
+                    {"size", {view.size.width, view.size.height}},
+                    {"used", jsonOf(view.used, evaluation.hasMask)},
+                    {"heldOut", jsonOf(view.heldOut, evaluation.hasMask)},
+                    {"lights", Json::array()}});
+  for (const PictureResult& picture : evaluation.pictures) {
+    Json figures{{"name", evaluation.lights[static_cast<std::size_t>(picture.light)].name}};
+    addFigures(picture, evaluation.hasMask, figures);
+    json[static_cast<std::size_t>(picture.view)]["lights"].push_back(std::move(figures));
+  }
+  return json;
+}
+
+bool hasManyViews(const Evaluation& evaluation) {
+  return evaluation.views.size() > 1;
+}
+
 std::string row(std::string_view label, std::string_view lights, const PictureError& error,
                 std::string_view linear) {
   return fmt::format("{:<28} {:>6} {:>9} {:>8} {:>8} {:>12}\n", label, lights,
@@ -72,12 +92,17 @@ std::string summaryRows(std::string_view label, const ErrorSummary& summary, boo
 }
 
 std::string worstRows(const Evaluation& evaluation) {
-  std::string text;
+  const bool views = hasManyViews(evaluation);
+  std::string text = views ? "worst pictures\n" : "worst lights\n";
   const auto order = worstFirst(evaluation);
   for (std::size_t i = 0; i < std::min(kWorstShown, order.size()); ++i) {
-    const LightResult& light = evaluation.lights[order[i]];
+    const PictureResult& picture = evaluation.pictures[order[i]];
+    const LightResult& light = evaluation.lights[static_cast<std::size_t>(picture.light)];
     text += row("  " + printableName(light.name, kNameWidth - 2), light.heldOut ? "out" : "used",
-                light.all, figureText(light.linearPsnrDecibels, 2));
+                picture.all, figureText(picture.linearPsnrDecibels, 2));
+    if (!views) continue;
+    const std::string& view = evaluation.views[static_cast<std::size_t>(picture.view)].name;
+    text.insert(text.size() - 1, "  in " + printableName(view, kNameWidth));
   }
   return text;
 }
@@ -102,10 +127,10 @@ std::string printableName(std::string_view name, std::size_t limit) {
 }
 
 std::vector<std::size_t> worstFirst(const Evaluation& evaluation) {
-  std::vector<std::size_t> order(evaluation.lights.size());
+  std::vector<std::size_t> order(evaluation.pictures.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    return evaluation.lights[a].all.psnrDecibels < evaluation.lights[b].all.psnrDecibels;
+    return evaluation.pictures[a].all.psnrDecibels < evaluation.pictures[b].all.psnrDecibels;
   });
   return order;
 }
@@ -120,16 +145,19 @@ std::string jsonOf(const Evaluation& evaluation) {
             {"lights", Json::array()}};
   for (const LightResult& light : evaluation.lights)
     json["lights"].push_back(jsonOf(light, evaluation.hasMask));
+  if (hasManyViews(evaluation)) json["views"] = jsonOfViews(evaluation);
   // Names come from files and need not be UTF-8.
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 std::string tableOf(const Evaluation& evaluation) {
-  std::string text = fmt::format("{:<28} {:>6} {:>9} {:>8} {:>8} {:>12}\n", "", "lights", "PSNR dB",
+  const std::string of =
+      hasManyViews(evaluation) ? fmt::format("mean of {} views", evaluation.views.size()) : "";
+  std::string text = fmt::format("{:<28} {:>6} {:>9} {:>8} {:>8} {:>12}\n", of, "lights", "PSNR dB",
                                  "SSIM", "rms %", "linear dB");
   text += summaryRows("held out", evaluation.heldOut, evaluation.hasMask);
   text += summaryRows("used", evaluation.used, evaluation.hasMask);
-  text += "worst lights\n" + worstRows(evaluation);
+  text += worstRows(evaluation);
   text += fmt::format("{} bytes ({}), {:.2f} bits a pixel\n", evaluation.bytes,
                       textFromBytes(evaluation.bytes), evaluation.bitsPerPixel);
   return text;

@@ -16,8 +16,7 @@ std::string figureText(double value, int decimals);
 /// characters.
 std::string printableName(std::string_view name, std::size_t limit);
 
-/// Indices of Evaluation::lights by rising PSNR over all pixels; equals in the order of the light
-/// file.
+/// Indices of Evaluation::pictures by rising PSNR over all pixels; equals in their order.
 std::vector<std::size_t> worstFirst(const Evaluation& evaluation);
 
 }  // namespace illum

@@ -61,6 +61,47 @@ TEST(EvaluationText, JsonWritesNullForWhatDoesNotExist) {
   EXPECT_TRUE(parsed["heldOut"].contains("linear"));
 }
 
+Evaluation ofTwoViews() {
+  Evaluation evaluation = madeUpEvaluation({30, 31, 32});
+  evaluation.views.push_back(evaluation.views[0]);
+  evaluation.views[1].name = "side";
+  evaluation.views[1].heldOut.all.psnrDecibels = 12;
+  for (int light = 0; light < 3; ++light) {
+    PictureResult picture = evaluation.pictures[static_cast<std::size_t>(light)];
+    picture.view = 1;
+    picture.all.psnrDecibels -= 10.5;
+    evaluation.pictures.push_back(picture);
+  }
+  return evaluation;
+}
+
+TEST(EvaluationText, JsonNamesViewsOnlyWhereThereAreSeveral) {
+  EXPECT_FALSE(json::parse(jsonOf(madeUpEvaluation({30, 31}))).contains("views"));
+  const json views = json::parse(jsonOf(ofTwoViews()))["views"];
+  ASSERT_EQ(views.size(), 2u);
+  EXPECT_EQ(views[0]["name"], "front");
+  EXPECT_EQ(views[1]["name"], "side");
+  EXPECT_EQ(views[1]["size"], json({40, 30}));
+  EXPECT_EQ(views[1]["used"]["lights"], 2);
+  EXPECT_EQ(views[1]["heldOut"]["psnr"], 12);
+  ASSERT_EQ(views[1]["lights"].size(), 3u);
+  EXPECT_EQ(views[1]["lights"][2]["name"], "image2.jpg");
+  EXPECT_EQ(views[1]["lights"][2]["psnr"], 21.5);
+  EXPECT_EQ(views[1]["lights"][2]["linear"]["psnr"], 33);
+}
+
+TEST(EvaluationText, TheTableNamesViewAndLightOfTheWorstPictures) {
+  Evaluation evaluation = ofTwoViews();
+  evaluation.views[1].name =
+      "si\x1b"
+      "de";
+  const std::string table = tableOf(evaluation);
+  EXPECT_THAT(table, HasSubstr("mean of 2 views"));
+  EXPECT_THAT(table, testing::ContainsRegex("image0.jpg +used +19.50 .* in si\\?de\n"));
+  EXPECT_LT(table.find("in si?de"), table.find("in front"));
+  EXPECT_THAT(tableOf(madeUpEvaluation({30, 31})), Not(HasSubstr("view")));
+}
+
 TEST(EvaluationText, JsonSurvivesNamesThatAreNotUtf8) {
   Evaluation evaluation = madeUpEvaluation({30});
   evaluation.lights[0].name = "a\xff\"\\\n.jpg";

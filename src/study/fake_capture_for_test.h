@@ -17,10 +17,19 @@ class FakeCapture : public Capture {
   /// A sample: light (index), x, y, channel.
   using Sample = std::function<float(int, int, int, int)>;
   using Coverage = std::function<float(int, int)>;
+  /// A sample: view, light (indices), x, y, channel.
+  using ViewSample = std::function<float(int, int, int, int, int)>;
 
   FakeCapture(Size size, Transfer transfer, std::vector<LightFileEntry> lights, Sample sample)
       : views_{{"fake", OrthographicView{size}}},
         transfer_(transfer),
+        lights_(std::move(lights)),
+        sample_([sample = std::move(sample)](int, int light, int x, int y, int channel) {
+          return sample(light, x, y, channel);
+        }) {}
+  FakeCapture(std::vector<View> views, std::vector<LightFileEntry> lights, ViewSample sample)
+      : views_(std::move(views)),
+        transfer_(Transfer::Display),
         lights_(std::move(lights)),
         sample_(std::move(sample)) {}
 
@@ -38,15 +47,15 @@ class FakeCapture : public Capture {
   const std::vector<LightFileEntry>& lights() const override { return lights_; }
   bool hasMask() const override { return static_cast<bool>(coverage_); }
 
-  void read(int, const Rectangle& rectangle, std::span<const int> lights,
+  void read(int view, const Rectangle& rectangle, std::span<const int> lights,
             std::span<float> samples) const override {
-    noteRead(rectangle, lights);
+    noteRead(view, rectangle, lights);
     std::size_t i = 0;
     for (const int light : lights)
       for (int channel = 0; channel < 3; ++channel)
         for (int y = rectangle.y; y < rectangle.bottom(); ++y)
           for (int x = rectangle.x; x < rectangle.right(); ++x)
-            samples[i++] = sample_(light, x, y, channel);
+            samples[i++] = sample_(view, light, x, y, channel);
   }
   void readMask(int, const Rectangle& rectangle, std::span<float> coverage) const override {
     std::size_t i = 0;
@@ -59,14 +68,15 @@ class FakeCapture : public Capture {
   std::string fingerprint() const override { return "fake"; }
 
   /// Reads that began above the lowest rows so far, unless at the very top: each would make
-  /// sequential formats decode all photographs again.
+  /// sequential formats decode all photographs again. So would going back to an earlier view.
   int backwardReads() const { return backwardReads_; }
   int reads() const { return reads_; }
 
  private:
-  void noteRead(const Rectangle& rectangle, std::span<const int> lights) const {
+  void noteRead(int view, const Rectangle& rectangle, std::span<const int> lights) const {
     const std::scoped_lock lock(mutex_);
-    backwardReads_ += rectangle.y > 0 && rectangle.y < lowest_;
+    backwardReads_ += view < view_ || (view == view_ && rectangle.y > 0 && rectangle.y < lowest_);
+    view_ = view;
     lowest_ = rectangle.y;
     reads_ += static_cast<int>(lights.size());
   }
@@ -74,12 +84,27 @@ class FakeCapture : public Capture {
   std::vector<View> views_;
   Transfer transfer_;
   std::vector<LightFileEntry> lights_;
-  Sample sample_;
+  ViewSample sample_;
   Coverage coverage_;
   int bandRows_ = 0;
   mutable std::mutex mutex_;
-  mutable int lowest_ = 0, backwardReads_ = 0, reads_ = 0;
+  mutable int view_ = 0, lowest_ = 0, backwardReads_ = 0, reads_ = 0;
 };
+
+/// `count` cameras side by side, named front0, front1, ...; each picture two pixels wider than the
+/// one before.
+inline std::vector<View> rowOfCameras(int count, Size size) {
+  std::vector<View> views;
+  for (int i = 0; i < count; ++i) {
+    PinholeCamera camera;
+    camera.objectFromCamera.translation = {0.5 * i, 0, 4};
+    camera.focalX = camera.focalY = size.width;
+    camera.size = {size.width + 2 * i, size.height};
+    camera.centre = {0.5 * camera.size.width, 0.5 * size.height};
+    views.push_back({"front" + std::to_string(i), camera});
+  }
+  return views;
+}
 
 /// `count` lights around the optical axis, 45 degrees high, named light0.png, light1.png, ...
 inline std::vector<LightFileEntry> ringOfLights(int count, LinearRgb intensity = {1, 1, 1}) {

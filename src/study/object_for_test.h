@@ -48,6 +48,8 @@ struct FlatObject {
   std::vector<LightFileEntry> lights;
   std::vector<int> heldOut;
   std::function<int(int, int)> coverageAt = {};  ///< a byte; empty: no mask
+  std::vector<View> views = {};                  ///< empty: a photograph of `size`
+  int brighter = 0;                              ///< each view than the one before, in bytes
 };
 
 /// One basis function, the constant 1, in each colour: relit = the planes, whatever the light.
@@ -68,7 +70,8 @@ inline Manifest manifestOf(const FlatObject& object, std::size_t tableBytes) {
   basis.tableBytes = tableBytes;
   basis.coding = {Coding::Png, 8, Curve::Linear, 1.0 / 255, {0, 0, 0}, {0, 1, 2}, 0};
   manifest.bases = {basis};
-  manifest.groups = {{{"view", OrthographicView{object.size}}, 0, {}}};
+  for (const View& view : object.views) manifest.groups.push_back({view, 0, {}});
+  if (object.views.empty()) manifest.groups = {{{"view", OrthographicView{object.size}}, 0, {}}};
   manifest.mask = static_cast<bool>(object.coverageAt);
   manifest.lights = object.lights;
   manifest.heldOut = object.heldOut;
@@ -76,9 +79,9 @@ inline Manifest manifestOf(const FlatObject& object, std::size_t tableBytes) {
   return manifest;
 }
 
-inline void writeTiles(const FlatObject& object, const Manifest& manifest, int level,
+inline void writeTiles(const FlatObject& object, const Manifest& manifest, int group, int level,
                        ObjectWriter& writer) {
-  const TileGrid grid = manifest.grid(0);
+  const TileGrid grid = manifest.grid(group);
   for (int y = 0; y < grid.tilesDown(level); ++y) {
     for (int x = 0; x < grid.tilesAcross(level); ++x) {
       const Rectangle tile = grid.tileRectangle(level, x, y);
@@ -87,15 +90,16 @@ inline void writeTiles(const FlatObject& object, const Manifest& manifest, int l
       for (int c = 0; c < 3; ++c)
         for (int v = tile.y; v < tile.bottom(); ++v)
           for (int u = tile.x; u < tile.right(); ++u)
-            codes.values.push_back(
-                static_cast<std::uint16_t>(object.byteAt(u << level, v << level, c)));
-      writer.add(planeTileName(manifest, 0, level, x, y), encodeTile(codes, Coding::Png, 8, {}));
+            codes.values.push_back(static_cast<std::uint16_t>(
+                object.byteAt(u << level, v << level, c) + group * object.brighter));
+      writer.add(planeTileName(manifest, group, level, x, y),
+                 encodeTile(codes, Coding::Png, 8, {}));
       if (!manifest.mask) continue;
       for (int v = 0; v < tile.height; ++v)
         for (int u = 0; u < tile.width; ++u)
           mask.at(u, v, 0) = static_cast<std::uint8_t>(
               object.coverageAt((tile.x + u) << level, (tile.y + v) << level));
-      writer.add(maskTileName(manifest, 0, level, x, y), encodeMaskTile(mask));
+      writer.add(maskTileName(manifest, group, level, x, y), encodeMaskTile(mask));
     }
   }
 }
@@ -105,8 +109,9 @@ inline Object makeObject(const std::filesystem::path& file, const FlatObject& ob
   const std::vector<std::byte> bytes = constantTable(table);
   const Manifest manifest = manifestOf(object, bytes.size());
   ObjectWriter writer(file, ObjectForm::Archive, "test", false, true);
-  for (int level = 0; level < manifest.grid(0).levels(); ++level)
-    writeTiles(object, manifest, level, writer);
+  for (int group = 0; group < static_cast<int>(manifest.groups.size()); ++group)
+    for (int level = 0; level < manifest.grid(group).levels(); ++level)
+      writeTiles(object, manifest, group, level, writer);
   writer.add("basis.bin", bytes);
   const std::string text = textOf(manifest);
   writer.add("object.json", std::as_bytes(std::span(text)));

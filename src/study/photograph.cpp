@@ -52,8 +52,8 @@ void showChannel(std::span<const float> samples, std::span<const std::uint8_t> c
 
 }  // namespace
 
-std::vector<Rectangle> stepsDown(const Capture& capture, int tileRows) {
-  const Size size = capture.size();
+std::vector<Rectangle> stepsDown(const Capture& capture, int view, int tileRows) {
+  const Size size = capture.size(view);
   const int most = std::max(1, kStepPixels / std::max(1, size.width));
   const int bandRows = std::max(1, capture.bandRows());
   std::vector<Rectangle> steps;
@@ -64,12 +64,12 @@ std::vector<Rectangle> stepsDown(const Capture& capture, int tileRows) {
   return steps;
 }
 
-PhotographBand readPhotograph(const Capture& capture, int light, const Rectangle& rows,
+PhotographBand readPhotograph(const Capture& capture, int view, int light, const Rectangle& rows,
                               const BytePicture& coverage) {
   const LinearRgb intensity = capture.lights().at(static_cast<std::size_t>(light)).light.intensity;
   const std::array<float, 3> factors{intensity.r, intensity.g, intensity.b};
   std::vector<float> samples(3 * rows.pixels());
-  capture.read(0, rows, {&light, 1}, samples);
+  capture.read(view, rows, {&light, 1}, samples);
 
   PhotographBand band{rows, Picture(rows.size(), 3), BytePicture(rows.size(), 3)};
   std::span<const std::uint8_t> covered = coverage.samples();
@@ -80,12 +80,12 @@ PhotographBand readPhotograph(const Capture& capture, int light, const Rectangle
   return band;
 }
 
-BytePicture coverageOf(const Capture& capture) {
+BytePicture coverageOf(const Capture& capture, int view) {
   if (!capture.hasMask()) return {};
-  BytePicture coverage(capture.size(), 1);
-  for (const Rectangle& rows : stepsDown(capture, capture.size().height)) {
+  BytePicture coverage(capture.size(view), 1);
+  for (const Rectangle& rows : stepsDown(capture, view, capture.size(view).height)) {
     std::vector<float> band(rows.pixels());
-    capture.readMask(0, rows, band);
+    capture.readMask(view, rows, band);
     const auto out = coverage.samples().subspan(Size{rows.width, rows.y}.pixels(), rows.pixels());
     std::transform(band.begin(), band.end(), out.begin(), byteFromUnit);
   }

@@ -15,22 +15,22 @@ struct PhotographBand {
   BytePicture bytes;  ///< the same on screen
 };
 
-/// The picture cut into rows of its whole width, from the top: no step crosses a multiple of the
-/// capture's bandRows() or of `tileRows` (> 0), so that each needs one band of the capture and one
-/// row of the object's tiles; none is larger than makes a read worthwhile. Readers finish a step
-/// for all lights before the next, since a sequential capture decodes all its photographs side by
-/// side.
-std::vector<Rectangle> stepsDown(const Capture& capture, int tileRows);
+/// View `view` of the capture cut into rows of its whole width, from the top: no step crosses a
+/// multiple of the capture's bandRows() or of `tileRows` (> 0), so that each needs one band of the
+/// capture and one row of the object's tiles; none is larger than makes a read worthwhile. Readers
+/// finish a step for all lights before the next, since a sequential capture decodes all its
+/// photographs side by side.
+std::vector<Rectangle> stepsDown(const Capture& capture, int view, int tileRows);
 
-/// The whole width of `rows` under light `light` (an index). A photograph is sample times light
-/// intensity, in linear light. For display-referred captures the bytes are those of the
-/// photograph's own file. `coverage` (1 channel, the capture's size, or empty) multiplies the
+/// The whole width of `rows` of view `view` under light `light` (indices). A photograph is sample
+/// times light intensity, in linear light. For display-referred captures the bytes are those of the
+/// photograph's own file. `coverage` (1 channel, the view's size, or empty) multiplies the
 /// linear values. Throws what Capture::read throws.
-PhotographBand readPhotograph(const Capture& capture, int light, const Rectangle& rows,
+PhotographBand readPhotograph(const Capture& capture, int view, int light, const Rectangle& rows,
                               const BytePicture& coverage);
 
-/// The capture's mask as 8-bit coverage; empty if it has none. Reads the capture from top to
-/// bottom.
-BytePicture coverageOf(const Capture& capture);
+/// The mask of view `view` as 8-bit coverage; empty if the capture has none. Reads the view from
+/// top to bottom.
+BytePicture coverageOf(const Capture& capture, int view);
 
 }  // namespace illum

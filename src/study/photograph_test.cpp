@@ -18,7 +18,7 @@ int byteAt(int light, int x, int y, int channel) {
 
 BytePicture wholeBytes(const Capture& capture, int light, const BytePicture& coverage = {}) {
   const Size size = capture.size();
-  return readPhotograph(capture, light, {0, 0, size.width, size.height}, coverage).bytes;
+  return readPhotograph(capture, 0, light, {0, 0, size.width, size.height}, coverage).bytes;
 }
 
 TEST(Photograph, DisplayReferredBytesComeBackExactly) {
@@ -53,7 +53,7 @@ TEST(Photograph, DisplayReferredBytesSurviveTheDivisionByIntensity) {
 TEST(Photograph, LinearSamplesAreShownTimesTheirIntensity) {
   const FakeCapture capture({4, 4}, Transfer::Linear, ringOfLights(1, {2, 1, 0.5f}),
                             [](int, int, int, int) { return 0.25f; });
-  const PhotographBand band = readPhotograph(capture, 0, {0, 0, 4, 4}, {});
+  const PhotographBand band = readPhotograph(capture, 0, 0, {0, 0, 4, 4}, {});
   EXPECT_EQ(band.linear.at(1, 1, 0), 0.5f);
   EXPECT_EQ(band.linear.at(1, 1, 2), 0.125f);
   EXPECT_EQ(band.bytes.at(1, 1, 0), displayByteFromLinear(0.5f));
@@ -78,7 +78,7 @@ TEST(Photograph, ABandIsACutOfTheWhole) {
       [](int, int x, int y, int) { return static_cast<float>(y * 5 + x) / 255; });
   BytePicture coverage({5, 13}, 1);
   for (std::size_t i = 0; i < 65; ++i) coverage.samples()[i] = i % 2 == 0 ? 255 : 0;
-  const PhotographBand band = readPhotograph(capture, 0, {0, 4, 5, 3}, coverage);
+  const PhotographBand band = readPhotograph(capture, 0, 0, {0, 4, 5, 3}, coverage);
   EXPECT_EQ(band.rows, (Rectangle{0, 4, 5, 3}));
   ASSERT_EQ(band.bytes.size(), (Size{5, 3}));
   for (int y = 0; y < 3; ++y)
@@ -101,28 +101,29 @@ TEST(Photograph, StepsCrossNeitherBandsNorTiles) {
   using testing::ElementsAre;
   FakeCapture capture({100, 50}, Transfer::Linear, ringOfLights(1),
                       [](int, int, int, int) { return 0.0f; });
-  EXPECT_THAT(endsOf(stepsDown(capture, 512)), ElementsAre(50));
-  EXPECT_THAT(endsOf(stepsDown(capture, 20)), ElementsAre(20, 40, 50));
-  EXPECT_THAT(endsOf(stepsDown(capture.withBandRows(16), 20)), ElementsAre(16, 20, 32, 40, 48, 50));
-  EXPECT_THAT(endsOf(stepsDown(capture.withBandRows(64), 512)), ElementsAre(50));
+  EXPECT_THAT(endsOf(stepsDown(capture, 0, 512)), ElementsAre(50));
+  EXPECT_THAT(endsOf(stepsDown(capture, 0, 20)), ElementsAre(20, 40, 50));
+  EXPECT_THAT(endsOf(stepsDown(capture.withBandRows(16), 0, 20)),
+              ElementsAre(16, 20, 32, 40, 48, 50));
+  EXPECT_THAT(endsOf(stepsDown(capture.withBandRows(64), 0, 512)), ElementsAre(50));
 }
 
 TEST(Photograph, StepsAreOfBoundedSize) {
   const FakeCapture wide({1 << 18, 5}, Transfer::Linear, ringOfLights(1),
                          [](int, int, int, int) { return 0.0f; });
-  EXPECT_THAT(endsOf(stepsDown(wide, 512)), testing::ElementsAre(2, 4, 5));
+  EXPECT_THAT(endsOf(stepsDown(wide, 0, 512)), testing::ElementsAre(2, 4, 5));
   const FakeCapture wider({1 << 20, 2}, Transfer::Linear, ringOfLights(1),
                           [](int, int, int, int) { return 0.0f; });
-  EXPECT_THAT(endsOf(stepsDown(wider, 512)), testing::ElementsAre(1, 2));
+  EXPECT_THAT(endsOf(stepsDown(wider, 0, 512)), testing::ElementsAre(1, 2));
 }
 
 TEST(Photograph, TheMaskIsReadAsBytes) {
   FakeCapture capture({300, 40}, Transfer::Linear, ringOfLights(1),
                       [](int, int, int, int) { return 0.0f; });
-  EXPECT_TRUE(coverageOf(capture).empty());
+  EXPECT_TRUE(coverageOf(capture, 0).empty());
   capture.withBandRows(7).withMask(
       [](int x, int y) { return static_cast<float>((x + y) % 256) / 255; });
-  const BytePicture coverage = coverageOf(capture);
+  const BytePicture coverage = coverageOf(capture, 0);
   ASSERT_EQ(coverage.size(), capture.size());
   for (int y = 0; y < 40; ++y)
     for (int x = 0; x < 300; ++x) ASSERT_EQ(coverage.at(x, y, 0), (x + y) % 256);

@@ -20,7 +20,7 @@
 namespace illum {
 namespace {
 
-constexpr std::size_t kShownLights = 3;
+constexpr std::size_t kShown = 3;
 constexpr int kJpegQuality = 88;
 
 std::string_view nameOf(Response response) {
@@ -39,11 +39,38 @@ std::string counted(int count, std::string_view noun) {
   return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
 }
 
+bool hasManyViews(const Evaluation& evaluation) {
+  return evaluation.views.size() > 1;
+}
+
+const LightResult& lightOf(const Evaluation& evaluation, const PictureResult& picture) {
+  return evaluation.lights[static_cast<std::size_t>(picture.light)];
+}
+
+const ViewResult& viewOf(const Evaluation& evaluation, const PictureResult& picture) {
+  return evaluation.views[static_cast<std::size_t>(picture.view)];
+}
+
+std::string sizeText(Size size) {
+  return fmt::format("{} × {}", size.width, size.height);
+}
+
+/// The size of the views, or that of the smallest and the largest.
+std::string sizesText(const Evaluation& evaluation) {
+  const auto [least, most] = std::minmax_element(
+      evaluation.views.begin(), evaluation.views.end(),
+      [](const auto& a, const auto& b) { return a.size.pixels() < b.size.pixels(); });
+  const std::string low = sizeText(least->size), high = sizeText(most->size);
+  return low == high ? low : low + " to " + high;
+}
+
 std::string header(const Object& object, const Evaluation& evaluation) {
   const Manifest& manifest = object.manifest();
   const std::string name = object.path().filename().string();
-  std::string about = fmt::format("{} × {} pixels · {}", object.size().width, object.size().height,
-                                  counted(object.planes(), "plane"));
+  std::string about =
+      fmt::format("{} pixels · {}", sizesText(evaluation), counted(object.planes(), "plane"));
+  if (hasManyViews(evaluation))
+    about = fmt::format("{} views of {}", evaluation.views.size(), about);
   for (const BasisEntry& basis : manifest.bases) about += " · basis " + basis.name;
   about += fmt::format(" · {}, {} bits, {} · judged under {}", nameOf(manifest.coding().coding),
                        manifest.coding().bits, nameOf(manifest.response),
@@ -113,7 +140,8 @@ std::string lightSection(const Evaluation& evaluation) {
         "r=\"7\"/><text x=\"26\" y=\"16\">held out: never seen by the fit</text></svg></p>\n";
   return html + "</div></div>\n" +
          "<p class=\"quiet\" style=\"margin-top:24px\">PSNR in decibels, in the order of the light "
-         "file</p>\n" +
+         "file" +
+         (hasManyViews(evaluation) ? ", each the mean over the views" : "") + "</p>\n" +
          "<div class=\"scroll\">" + lightPlot(evaluation) + "</div>\n";
 }
 
@@ -133,42 +161,118 @@ std::string directionText(Direction direction) {
                      azimuth < 0 ? azimuth + 360 : azimuth);
 }
 
-/// Photograph, relit picture and error of one light, side by side.
-std::string trio(const LightResult& light, const ReportPictures& pictures) {
+/// Photograph, relit picture and error, side by side.
+std::string trio(const Evaluation& evaluation, const PictureResult& picture,
+                 const ReportPictures& pictures) {
+  const LightResult& light = lightOf(evaluation, picture);
+  const std::string view =
+      hasManyViews(evaluation)
+          ? "<span>view " + htmlText(viewOf(evaluation, picture).name) + "</span>"
+          : "";
   std::string html = fmt::format(
-      "<section class=\"trio\">\n<header><b>{}</b><span>{} dB</span><span>SSIM {}</span>"
+      "<section class=\"trio\">\n<header><b>{}</b>{}<span>{} dB</span><span>SSIM {}</span>"
       "<span class=\"quiet\">{}</span>{}</header>\n",
-      htmlText(light.name), figureText(light.all.psnrDecibels, 2), figureText(light.all.ssim, 3),
-      directionText(light.direction), light.heldOut ? "<span class=\"tag\">held out</span>" : "");
+      htmlText(light.name), view, figureText(picture.all.psnrDecibels, 2),
+      figureText(picture.all.ssim, 3), directionText(light.direction),
+      light.heldOut ? "<span class=\"tag\">held out</span>" : "");
   html += imageTag(pictures.photograph, "Photograph") + imageTag(pictures.relit, "Relit") +
           imageTag(pictures.error, fmt::format("Error × {}", kErrorGain));
   return html + "</section>\n";
 }
 
-/// The worst lights, then the best of the others, best first.
-std::vector<int> lightsToShow(const Evaluation& evaluation) {
+/// The worst pictures, then the best of the others, best first: indices.
+std::vector<std::size_t> picturesToShow(const Evaluation& evaluation) {
   const std::vector<std::size_t> order = worstFirst(evaluation);
-  const std::size_t worst = std::min(kShownLights, order.size());
-  const std::size_t best = std::min(kShownLights, order.size() - worst);
-  std::vector<int> shown(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(worst));
+  const std::size_t worst = std::min(kShown, order.size());
+  const std::size_t best = std::min(kShown, order.size() - worst);
+  std::vector<std::size_t> shown(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(worst));
   shown.insert(shown.end(), order.rbegin(), order.rbegin() + static_cast<std::ptrdiff_t>(best));
   return shown;
 }
 
-std::string pictureSections(const Comparison& comparison, const Evaluation& evaluation) {
-  const std::vector<int> shown = lightsToShow(evaluation);
-  const std::vector<ReportPictures> pictures = reportPictures(comparison, shown);
-  std::string html = shown.size() == 1 ? "<h2>The light</h2>\n" : "<h2>Worst lights</h2>\n";
+/// Makes the pictures of all that are shown, reading no view more than once.
+class ShownPictures {
+ public:
+  ShownPictures(const Object& object, const Capture& truth, std::uint64_t memoryBytes)
+      : object_(object),
+        truth_(truth),
+        views_(comparableViews(object, truth)),
+        memoryBytes_(memoryBytes) {}
+
+  std::vector<ReportPictures> of(const Evaluation& evaluation,
+                                 const std::vector<std::size_t>& shown) const {
+    std::vector<ReportPictures> pictures(shown.size());
+    for (std::size_t view = 0; view < views_.size(); ++view) {
+      std::vector<std::size_t> places;
+      std::vector<int> lights;
+      for (std::size_t i = 0; i < shown.size(); ++i) {
+        const PictureResult& picture = evaluation.pictures[shown[i]];
+        if (picture.view != static_cast<int>(view)) continue;
+        places.push_back(i);
+        lights.push_back(picture.light);
+      }
+      if (lights.empty()) continue;
+      const Comparison comparison(object_, truth_, views_[view], memoryBytes_);
+      std::vector<ReportPictures> made = reportPictures(comparison, lights);
+      for (std::size_t i = 0; i < places.size(); ++i) pictures[places[i]] = std::move(made[i]);
+    }
+    return pictures;
+  }
+
+ private:
+  const Object& object_;
+  const Capture& truth_;
+  std::vector<ViewPair> views_;
+  std::uint64_t memoryBytes_;
+};
+
+std::string pictureSections(const ShownPictures& source, const Evaluation& evaluation) {
+  const std::vector<std::size_t> shown = picturesToShow(evaluation);
+  const std::vector<ReportPictures> pictures = source.of(evaluation, shown);
+  const std::string_view what = hasManyViews(evaluation) ? "pictures" : "lights";
+  std::string html =
+      shown.size() == 1 ? "<h2>The light</h2>\n" : fmt::format("<h2>Worst {}</h2>\n", what);
   for (std::size_t i = 0; i < shown.size(); ++i) {
-    if (i == kShownLights) html += "<h2>Best lights</h2>\n";
-    html += trio(evaluation.lights[static_cast<std::size_t>(shown[i])], pictures[i]);
+    if (i == kShown) html += fmt::format("<h2>Best {}</h2>\n", what);
+    html += trio(evaluation, evaluation.pictures[shown[i]], pictures[i]);
   }
   return html;
 }
 
-std::string lightTable(const Evaluation& evaluation) {
+std::string viewRow(const ViewResult& view, const Evaluation& evaluation) {
+  std::string row =
+      fmt::format("<tr><td>{}</td><td>{}</td>", htmlText(view.name), sizeText(view.size));
+  for (const ErrorSummary* summary : {&view.heldOut, &view.used}) {
+    if (summary->lights == 0) continue;
+    row += cells(summary->all);
+    if (evaluation.hasMask) row += "<td>" + figureText(summary->masked.psnrDecibels, 2) + "</td>";
+  }
+  return row + "</tr>\n";
+}
+
+std::string viewTable(const Evaluation& evaluation) {
+  if (!hasManyViews(evaluation)) return {};
   std::string html =
-      "<details><summary>All figures</summary>\n<div class=\"scroll\"><table>\n<tr><th>light</th>"
+      "<details><summary>Every view</summary>\n<div class=\"scroll\"><table>\n<tr><th>view</th>"
+      "<th>pixels</th>";
+  const auto columns = [&](const ErrorSummary& summary, std::string_view which) {
+    if (summary.lights == 0) return;
+    html += fmt::format("<th>{0}: PSNR, dB</th><th>SSIM</th><th>rms, %</th>", which);
+    if (evaluation.hasMask) html += "<th>PSNR in mask, dB</th>";
+  };
+  columns(evaluation.heldOut, "held out");
+  columns(evaluation.used, "used");
+  html += "</tr>\n";
+  for (const ViewResult& view : evaluation.views) html += viewRow(view, evaluation);
+  return html + "</table></div></details>\n";
+}
+
+std::string lightTable(const Evaluation& evaluation) {
+  std::string html = hasManyViews(evaluation)
+                         ? "<details><summary>Every light, the mean over the views</summary>"
+                         : "<details><summary>All figures</summary>";
+  html +=
+      "\n<div class=\"scroll\"><table>\n<tr><th>light</th>"
       "<th>x</th><th>y</th><th>z</th><th></th><th>PSNR, dB</th><th>SSIM</th><th>rms, %</th>"
       "<th>linear PSNR, dB</th>";
   html += evaluation.hasMask ? "<th>PSNR in mask, dB</th></tr>\n" : "</tr>\n";
@@ -193,18 +297,21 @@ std::string provenance(const Manifest& manifest) {
   return html + "</table></details>\n";
 }
 
-constexpr std::string_view kFooter =
-    "<footer>PSNR, SSIM and rms compare the 8-bit sRGB pictures, per light over all pixels and "
-    "channels; a row is the mean over its lights. SSIM after Wang et al. 2004 on luma. rms is in "
-    "per cent of white. Linear PSNR compares unclamped linear light with a peak of 1. The bytes "
-    "are "
-    "those of the whole file. Pictures are reduced to fit; errors are enlarged.</footer>\n";
+std::string footer(const Evaluation& evaluation) {
+  const bool views = hasManyViews(evaluation);
+  return fmt::format(
+      "<footer>PSNR, SSIM and rms compare the 8-bit sRGB pictures, per {} over all pixels and "
+      "channels; a row is the mean over its {}. SSIM after Wang et al. 2004 on luma. rms is in "
+      "per cent of white. Linear PSNR compares unclamped linear light with a peak of 1. The bytes "
+      "are those of the whole file. Pictures are reduced to fit; errors are enlarged.</footer>\n",
+      views ? "view and light" : "light", views ? "views and lights" : "lights");
+}
 
 }  // namespace
 
 std::string htmlReport(const Object& object, const Capture& truth, const Evaluation& evaluation,
                        std::uint64_t memoryBytes) {
-  const Comparison comparison(object, truth, memoryBytes);
+  const ShownPictures pictures(object, truth, memoryBytes);
   const std::string title = htmlText(object.path().filename().string());
   std::string html =
       "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
@@ -212,8 +319,8 @@ std::string htmlReport(const Object& object, const Capture& truth, const Evaluat
   html += "<title>" + title + " · evaluation</title>\n<style>" + std::string(kReportStyle) +
           "</style>\n</head>\n<body>\n";
   html += header(object, evaluation) + stats(evaluation) + summaryTable(evaluation) +
-          lightSection(evaluation) + pictureSections(comparison, evaluation) +
-          lightTable(evaluation) + provenance(object.manifest()) + std::string(kFooter);
+          lightSection(evaluation) + pictureSections(pictures, evaluation) + viewTable(evaluation) +
+          lightTable(evaluation) + provenance(object.manifest()) + footer(evaluation);
   return html + "</body>\n</html>\n";
 }
 

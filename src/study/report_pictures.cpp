@@ -69,7 +69,7 @@ BytePicture bytesFromUnit(const Picture& units) {
   return bytes;
 }
 
-/// The three pictures of one light while they grow.
+/// The three pictures of one view and light while they grow.
 struct Growing {
   BoxReducer photograph, relit, error;
 
@@ -95,7 +95,7 @@ struct Growing {
 
 std::vector<ReportPictures> reportPictures(const Comparison& comparison,
                                            std::span<const int> lights) {
-  const Size size = comparison.truth().size();
+  const Size size = comparison.size();
   std::vector<Growing> growing(lights.size(), Growing(size, reduction(size)));
   const std::uint64_t kept =
       lights.size() * 3 * 3 * sizeof(float) * Size{kReportPictureSide, kReportPictureSide}.pixels();

@@ -22,7 +22,7 @@ struct ReportPictures {
                       ///< pixel stands for
 };
 
-/// Of each of `lights` (indices), in one pass over the capture. Reduced by a whole factor, in
+/// Of each of `lights` (indices), in one pass over the view. Reduced by a whole factor, in
 /// linear light, until neither side exceeds kReportPictureSide.
 std::vector<ReportPictures> reportPictures(const Comparison& comparison,
                                            std::span<const int> lights);

@@ -57,6 +57,39 @@ TEST(Report, FewLightsAreShownOnce) {
         lights);
 }
 
+TEST(Report, NamesViewAndLightOfTheWorstAndTheBestPictures) {
+  const TemporaryFolder folder("reportviews");
+  const auto lights = ringOfLights(2);
+  FlatObject flat{{40, 30}, grey, lights, {}};
+  flat.views = rowOfCameras(4, flat.size);
+  flat.views[3].name = "<b>last</b>";
+  const Object object = makeObject(folder.path() / "a.illum", flat);
+  const FakeCapture capture(flat.views, lights, [](int view, int light, int, int, int) {
+    return static_cast<float>(101 + 2 * view + light) / 255;
+  });
+  Progress progress;
+  const Evaluation evaluation = evaluate(object, capture, progress);
+  const int before = capture.reads();
+  const std::string html = htmlReport(object, capture, evaluation);
+  EXPECT_EQ(capture.reads() - before, 6) << "one read for each picture that is shown";
+  EXPECT_EQ(count(html, "<section class=\"trio\">"), 6);
+  const auto best = html.find("<h2>Best pictures</h2>");
+  const auto worst = html.find("<b>light1.png</b><span>view &lt;b&gt;last&lt;/b&gt;</span>");
+  EXPECT_LT(html.find("<h2>Worst pictures</h2>"), worst);
+  EXPECT_LT(worst, html.find("<b>light1.png</b><span>view front2</span>"));
+  EXPECT_LT(html.find("<b>light1.png</b><span>view front2</span>"), best);
+  EXPECT_LT(best, html.find("<b>light0.png</b><span>view front0</span>"));
+  EXPECT_THAT(html, HasSubstr("4 views of 40 × 30 to 46 × 30 pixels"));
+  EXPECT_THAT(html, HasSubstr("<tr><td>front1</td><td>42 × 30</td>"));
+  EXPECT_THAT(html, Not(HasSubstr("<b>last")));
+}
+
+TEST(Report, AReportOfOneViewSpeaksOfLightsOnly) {
+  const std::string html = reportOn({40, 30}, ringOfLights(3), "a.illum");
+  EXPECT_THAT(html, Not(HasSubstr("view ")));
+  EXPECT_THAT(html, Not(HasSubstr("views")));
+}
+
 TEST(Report, StandsAlone) {
   const std::string html = reportOn({40, 30}, ringOfLights(3), "a.illum");
   EXPECT_THAT(html, Not(HasSubstr("http")));
@@ -83,7 +116,7 @@ TEST(Report, HostileNamesStayText) {
 
 ReportPictures onlyPictures(const Object& object, const Capture& capture) {
   const std::vector<int> lights{0};
-  return reportPictures(Comparison(object, capture, 1 << 20), lights).at(0);
+  return reportPictures(Comparison(object, capture, {}, 1 << 20), lights).at(0);
 }
 
 TEST(ReportPictures, AreReducedToABoundedSize) {

@@ -9,8 +9,11 @@ import numpy as np
 import pytest
 from PIL import Image
 
+import judge
 import stacks
 from conftest import ROOT
+from test_light import read_exrs
+from test_scenes import write_scene
 
 JUDGE = ROOT / "tests/cli/judge.py"
 
@@ -116,3 +119,92 @@ def test_the_same_crop_is_judged(illum, stack, tmp_path):
     figures = json.loads(illum("evaluate", tmp_path / "o.illum", "--against", stack, *options,
                                "--json").stdout)
     assert figures["used"]["psnr"] > 27
+
+
+VIEWS = [{"slab": {"viewPoints": [2, 1], "longerSide": 32}},
+         {"slab": {"name": "side", "toward": [1, 0.3, 0.5], "viewPoints": [1, 1], "longerSide": 24}}]
+
+
+@pytest.fixture(scope="module")
+def many_views(tmp_path_factory, binary):
+    """A scene's capture and an object made of it, with every third light left out."""
+    from conftest import Illum
+    folder, illum = tmp_path_factory.mktemp("views"), Illum(tmp_path_factory.mktemp("output"))
+    scene = write_scene(folder, views=VIEWS, lights={"fibonacci": 9}, meshes=[{"shape": "teapot"}])
+    illum("capture", scene, "-o", folder / "truth")
+    illum("build", folder / "truth", "-o", folder / "o.illum", "--holdout", 3)
+    return folder
+
+
+def captured(folder, view, lights):
+    """The truth of one view over black, linear, under each of so many lights."""
+    files = [folder / view["photographs"].format(index=f"{k:04}") for k in range(lights)]
+    [mask] = read_exrs([folder / view["mask"]], "Y")
+    return [picture * judge.to_bytes(mask) / 255 for picture in read_exrs(files)]
+
+
+def test_every_view_is_judged_by_that_of_the_same_name(illum, many_views, tmp_path):
+    built, truth = many_views / "o.illum", many_views / "truth"
+    ours = json.loads(illum("evaluate", built, "--against", truth, "--json").stdout)
+    capture = json.loads((truth / "capture.json").read_text())
+    assert [v["name"] for v in ours["views"]] == [v["name"] for v in capture["views"]]
+    stacks.write_light_file(tmp_path, [l["name"] for l in ours["lights"]],
+                            [l["direction"] for l in ours["lights"]])
+    everything = []
+    for view, mine in zip(capture["views"], ours["views"]):
+        relit, figures = tmp_path / mine["name"], []
+        illum("relight", built, "--view", mine["name"], "--lights", tmp_path / "lights.lp", "-o",
+              relit)
+        for light, seen in zip(mine["lights"], captured(truth, view, 9)):
+            picture = judge.read_relit(relit / f"{light['name']}.png")
+            figures.append((judge.psnr(picture, judge.encode(seen)),
+                            judge.ssim(picture, judge.encode(seen))))
+            assert light["psnr"] == pytest.approx(figures[-1][0], abs=0.02)
+            assert light["ssim"] == pytest.approx(figures[-1][1], abs=1e-3)
+        everything.append(figures)
+        assert mine["heldOut"]["psnr"] == pytest.approx(
+            np.mean([f[0] for f in figures[2::3]]), abs=0.02)
+    assert [l["name"] for l in mine["lights"]] == [l["name"] for l in ours["lights"]]
+    mean = np.array(everything)[..., 0].mean(axis=0)
+    assert [l["psnr"] for l in ours["lights"]] == pytest.approx(list(mean), abs=0.02)
+    assert ours["heldOut"]["psnr"] == pytest.approx(mean[2::3].mean(), abs=0.02)
+    assert (ours["used"]["lights"], ours["heldOut"]["lights"]) == (6, 3)
+    pixels = sum(v["size"][0] * v["size"][1] for v in ours["views"])
+    assert ours["bitsPerPixel"] == pytest.approx(8 * built.stat().st_size / pixels)
+
+
+def test_many_views_on_the_terminal_and_in_the_report(illum, many_views, tmp_path):
+    outcome = illum("evaluate", many_views / "o.illum", "--against", many_views / "truth", "--html",
+                    tmp_path / "r.html")
+    assert "mean of 3 views" in outcome.stdout and "worst pictures" in outcome.stdout
+    page, text = Page(), (tmp_path / "r.html").read_text()
+    page.feed(text)
+    assert page.open == [] and page.pictures == 18
+    figures = json.loads(illum("evaluate", many_views / "o.illum", "--against",
+                               many_views / "truth", "--json").stdout)
+    worst = min((light["psnr"], light["name"], view["name"])
+                for view in figures["views"] for light in view["lights"])
+    first = outcome.stdout.split("worst pictures\n")[1].splitlines()[0]
+    assert first.split()[0] == worst[1] and first.endswith(f"in {worst[2]}")
+    assert text.index(f"<b>{worst[1]}</b><span>view {worst[2]}</span>") < text.index("Best pictures")
+
+
+def test_a_scene_judges_as_its_capture_does(illum, many_views):
+    by_scene, by_capture = (
+        json.loads(illum("evaluate", many_views / "o.illum", "--against", many_views / name,
+                         "--json", "--max-memory", "200M").stdout)
+        for name in ("scene.json", "truth"))
+    assert by_scene == by_capture
+
+
+@pytest.mark.parametrize("fault, mentions", [
+    ({"views": [*VIEWS, {"slab": {"name": "back", "toward": [-1, 0, 0], "viewPoints": [1, 1],
+                                  "longerSide": 24}}]}, "back_u00_v00"),
+    ({"views": [{"slab": {"viewPoints": [2, 1], "longerSide": 33}}]}, "33x"),
+    ({"views": [{"slab": {"viewPoints": [2, 2], "longerSide": 32}}]}, "elsewhere"),
+    ({"views": [{"photograph": {"size": [32, 20]}}]}, "o.illum"),
+], ids=["a view that it lacks", "another size", "another grid", "a photograph"])
+def test_views_that_cannot_be_judged(illum, many_views, tmp_path, fault, mentions):
+    scene = write_scene(tmp_path, meshes=[{"shape": "teapot"}], **fault)
+    illum.refuses("evaluate", many_views / "o.illum", "--against", scene, "--html",
+                  tmp_path / "r.html", mentions=["o.illum", mentions], leaves=tmp_path)

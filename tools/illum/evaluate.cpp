@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 
@@ -21,7 +22,7 @@ struct EvaluateCommand {
 
   void addTo(CLI::App& command) {
     command.add_option("OBJECT", object, ".illum file or folder")->required();
-    command.add_option("--against", input.input, "the photographs")->required();
+    command.add_option("--against", input.input, std::string("the truth: ") + kInputs)->required();
     command.add_flag("--json", json, "print the figures as JSON");
     command.add_option("--html", html, "write a report with pictures");
     input.addTo(command);
@@ -33,9 +34,11 @@ struct EvaluateCommand {
     TerminalProgress progress;
     const Object opened = Object::open(object);
     const auto scratch = std::filesystem::absolute(object).parent_path();
-    const auto truth = input.open(machine.memoryBytes() / 2, scratch, progress);
-    const Evaluation evaluation = evaluate(opened, *truth, progress);
-    if (!html.empty()) writeFileAtomically(html, htmlReport(opened, *truth, evaluation));
+    const std::uint64_t memoryBytes = machine.memoryBytes();
+    const auto truth = input.open(memoryBytes / 2, scratch, progress);
+    const Evaluation evaluation = evaluate(opened, *truth, progress, memoryBytes);
+    if (!html.empty())
+      writeFileAtomically(html, htmlReport(opened, *truth, evaluation, memoryBytes));
     fmt::print("{}", json ? jsonOf(evaluation) : tableOf(evaluation));
     return kDone;
   }
