@@ -134,6 +134,7 @@ cmake --preset sanitize -DILLUM_TESTS=ON -DILLUM_WARNINGS_AS_ERRORS=ON \
   >"$results/configure-sanitize.log"
 cmake --build --preset sanitize
 export ASAN_OPTIONS=exitcode=99 UBSAN_OPTIONS=exitcode=99:print_stacktrace=1
+export LSAN_OPTIONS=suppressions=$PWD/tests/lsan.supp:print_suppressions=0
 run_ctest sanitized-unit build/sanitize
 ILLUM_BIN=$PWD/build/sanitize/tools/illum/illum run_pytest sanitized-cli \
   -n "$jobs" tests/cli/test_hostile_photographs.py tests/cli/test_hostile_objects.py

@@ -21,7 +21,7 @@ constexpr double kMaxMomentOperations = 1e11;  // about two seconds of one core
 constexpr double kRenderedShare = 1.0 / 12;
 constexpr double kLeastRendered = 16384;
 
-struct Block {
+struct Place {
   int group = 0;
   Rectangle pixels;
 };
@@ -29,7 +29,7 @@ struct Block {
 // The blocks of one row of blocks that belong to the pilot; `turn` counts such rows over all
 // pictures.
 void addBlocksOfRow(Size size, int group, int blockRow, int turn, int stride,
-                    std::vector<Block>& blocks) {
+                    std::vector<Place>& blocks) {
   const int across = (size.width + kBlockSide - 1) / kBlockSide;
   // Rows are shifted against one another by the golden section, so that no column is never seen.
   const int shift = static_cast<int>(std::fmod(0.6180339887 * turn * stride, stride));
@@ -42,12 +42,12 @@ void addBlocksOfRow(Size size, int group, int blockRow, int turn, int stride,
 }
 
 // Every `stride`-th row of blocks, counted on from picture to picture; what is read side by side.
-std::vector<std::vector<Block>> rowsOfBlocks(const Capture& capture, std::span<const int> groups,
+std::vector<std::vector<Place>> rowsOfBlocks(const Capture& capture, std::span<const int> groups,
                                              int stride) {
   // Rows of small pictures hold too few blocks for many threads; where order does not matter,
   // several are read at once.
   constexpr std::size_t kTogether = 64;
-  std::vector<std::vector<Block>> rows;
+  std::vector<std::vector<Place>> rows;
   int counted = 0;
   for (const int group : groups) {
     const Size size = capture.size(group);
@@ -70,58 +70,51 @@ struct Moments {
 };
 
 Moments momentsOf(const Pilot& pilot, std::size_t begin, std::size_t end) {
-  // Products are summed in float over a slice and the slices in double, so that small eigenvalues
+  // Products are summed in float over a block and the blocks in double, so that small eigenvalues
   // of the moments survive.
-  constexpr std::size_t kSlice = 2048;
   const std::size_t rows = 3 * static_cast<std::size_t>(pilot.lights);
   Moments moments{std::vector<double>(rows), std::vector<double>(rows * rows)};
   std::vector<float> partial(rows * rows);
-  const auto ld = static_cast<int>(pilot.pixels);
-  for (; begin < end; begin += kSlice) {
-    const std::size_t count = std::min(kSlice, end - begin);
+  for (; begin < end; ++begin) {
+    const Pilot::Block& block = pilot.blocks[begin];
+    if (block.pixels == 0) continue;
+    const float* samples = pilot.samples(block).data();
     cblas_ssyrk(CblasRowMajor, CblasUpper, CblasNoTrans, static_cast<int>(rows),
-                static_cast<int>(count), 1.0f, pilot.samples.data() + begin, ld, 0.0f,
+                static_cast<int>(block.pixels), 1.0f, samples, static_cast<int>(block.pixels), 0.0f,
                 partial.data(), static_cast<int>(rows));
     for (std::size_t i = 0; i < rows; ++i) {
       for (std::size_t j = i; j < rows; ++j) {
         moments.products[i * rows + j] += static_cast<double>(partial[i * rows + j]);
       }
-      const float* row = pilot.samples.data() + i * pilot.pixels + begin;
-      for (std::size_t p = 0; p < count; ++p) moments.sum[i] += static_cast<double>(row[p]);
+      for (std::size_t p = 0; p < block.pixels; ++p) {
+        moments.sum[i] += static_cast<double>(samples[i * block.pixels + p]);
+      }
     }
   }
   return moments;
 }
 
-struct BlockSamples {
-  std::size_t pixels = 0;
-  std::vector<float> samples;  // rows x pixels
-};
-
-BlockSamples readBlock(const Capture& capture, const Block& block, std::span<const int> lights) {
-  const std::size_t rows = 3 * lights.size(), pixels = block.pixels.pixels();
-  BlockSamples out{pixels, std::vector<float>(rows * pixels)};
-  capture.read(block.group, block.pixels, lights, out.samples);
-  if (!capture.hasMask()) return out;
+// Reads the samples of a block and keeps those of its unmasked pixels.
+void readBlock(const Capture& capture, const Place& place, std::span<const int> lights,
+               const Pilot& pilot, Pilot::Block& block) {
+  const std::span<float> samples = pilot.samples(block);
+  capture.read(place.group, place.pixels, lights, samples);
+  if (!capture.hasMask()) return;
 
   // What is rendered is the mean over the covered part, however small; photographs are mixed with
   // what lies behind.
   const float least = capture.isRendered() ? std::numeric_limits<float>::min() : 0.5f;
-  std::vector<float> coverage(pixels);
-  capture.readMask(block.group, block.pixels, coverage);
-  std::size_t kept = 0;
-  std::vector<std::size_t> source;
-  for (std::size_t p = 0; p < pixels; ++p) {
-    if (coverage[p] >= least) source.push_back(p), ++kept;
+  std::vector<float> coverage(block.pixels);
+  capture.readMask(place.group, place.pixels, coverage);
+  std::vector<std::size_t> kept;
+  for (std::size_t p = 0; p < block.pixels; ++p) {
+    if (coverage[p] >= least) kept.push_back(p);
   }
-  for (std::size_t row = 0; row < rows; ++row) {
-    for (std::size_t p = 0; p < kept; ++p) {
-      out.samples[row * kept + p] = out.samples[row * pixels + source[p]];
-    }
+  std::size_t to = 0;
+  for (std::size_t row = 0; row < samples.size(); row += block.pixels) {
+    for (const std::size_t p : kept) samples[to++] = samples[row + p];
   }
-  out.pixels = kept;
-  out.samples.resize(rows * kept);
-  return out;
+  block.pixels = kept.size();
 }
 
 }  // namespace
@@ -130,8 +123,8 @@ std::size_t pilotPixels(const Capture& capture, std::uint64_t allPixels, int lig
                         std::uint64_t memoryBytes) {
   const double rows = 3.0 * lights;
   const double byCost = kMaxMomentOperations / (rows * rows);
-  // The samples stand in memory twice while blocks are put together.
-  const double byMemory = static_cast<double>(memoryBytes) / (4.0 * sizeof(float) * rows);
+  // Beside the samples stand the planes that are tried on them.
+  const double byMemory = static_cast<double>(memoryBytes) / (2.0 * sizeof(float) * rows);
   double pixels = std::min({static_cast<double>(kMaxPixels), byCost, byMemory});
   if (capture.isRendered()) {
     const double share = kRenderedShare * static_cast<double>(allPixels);
@@ -151,21 +144,27 @@ Pilot drawPilot(const Capture& capture, std::span<const int> groups, std::span<c
   progress.begin(
       capture.isRendered() ? "rendering a few pixels to choose by" : "looking over the photographs",
       rowsOfPilot.size());
-  std::vector<BlockSamples> parts;
-  for (const std::vector<Block>& blocks : rowsOfPilot) {
-    const std::size_t first = parts.size();
-    parts.resize(first + blocks.size());
-    tbb::parallel_for(std::size_t{0}, blocks.size(), [&](std::size_t i) {
-      parts[first + i] = readBlock(capture, blocks[i], lights);
-    });
-    progress.advance();
-  }
-  progress.end();
-
   Pilot pilot;
   pilot.lights = static_cast<int>(lights.size());
   pilot.complete = stride == 1;
-  for (const auto& part : parts) pilot.pixels += part.pixels;
+  std::size_t floats = 0;
+  for (const std::vector<Place>& row : rowsOfPilot) {
+    for (const Place& place : row) {
+      pilot.blocks.push_back({floats, place.pixels.pixels()});
+      floats += 3 * lights.size() * place.pixels.pixels();
+    }
+  }
+  pilot.memory = PageBuffer(floats * sizeof(float));
+  std::size_t first = 0;
+  for (const std::vector<Place>& row : rowsOfPilot) {
+    tbb::parallel_for(std::size_t{0}, row.size(), [&](std::size_t i) {
+      readBlock(capture, row[i], lights, pilot, pilot.blocks[first + i]);
+    });
+    first += row.size();
+    progress.advance();
+  }
+  progress.end();
+  for (const Pilot::Block& block : pilot.blocks) pilot.pixels += block.pixels;
   if (pilot.pixels == 0) {
     // Between the blocks there may be something.
     if (stride > 1) return drawPilot(capture, groups, lights, 4 * maxPixels, progress);
@@ -175,17 +174,6 @@ Pilot drawPilot(const Capture& capture, std::span<const int> groups, std::span<c
                                   : "the mask leaves no pixel of the photographs: expected "
                                     "coverage of at least one half somewhere, found none");
   }
-  const std::size_t rows = 3 * lights.size();
-  pilot.samples.resize(rows * pilot.pixels);
-  std::size_t at = 0;
-  for (auto& part : parts) {
-    for (std::size_t row = 0; row < rows; ++row) {
-      std::copy_n(part.samples.data() + row * part.pixels, part.pixels,
-                  pilot.samples.data() + row * pilot.pixels + at);
-    }
-    at += part.pixels;
-    part = {};
-  }
   return pilot;
 }
 
@@ -194,8 +182,8 @@ SampleStatistics statisticsOf(const Pilot& pilot) {
   // A fixed number of parts, added up in their order: the sum does not depend on the threads.
   std::vector<Moments> parts(kMomentParts);
   tbb::parallel_for(std::size_t{0}, kMomentParts, [&](std::size_t part) {
-    const std::size_t begin = pilot.pixels * part / kMomentParts;
-    const std::size_t end = pilot.pixels * (part + 1) / kMomentParts;
+    const std::size_t begin = pilot.blocks.size() * part / kMomentParts;
+    const std::size_t end = pilot.blocks.size() * (part + 1) / kMomentParts;
     parts[part] = momentsOf(pilot, begin, end);
   });
   SampleStatistics statistics;

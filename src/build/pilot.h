@@ -6,17 +6,30 @@
 #include <span>
 #include <vector>
 
+#include "core/page_buffer.h"
 #include "fit/fit.h"
 #include "illum/capture.h"
 #include "illum/progress.h"
 
 namespace illum {
 
+/// Its pixels lie block by block, as they were read: their samples of one block fit a cache, and
+/// nothing is copied.
 struct Pilot {
+  struct Block {
+    std::size_t first = 0, pixels = 0;  ///< where its samples begin, in floats
+  };
   int lights = 0;
-  std::size_t pixels = 0;
-  std::vector<float> samples;  ///< (3 * lights) x pixels, as Capture::read
-  bool complete = false;       ///< every unmasked pixel is in it
+  std::size_t pixels = 0;  ///< of all blocks
+  std::vector<Block> blocks;
+  PageBuffer memory;
+  bool complete = false;  ///< every unmasked pixel is in it
+
+  /// (3 * lights) x block.pixels, as Capture::read.
+  std::span<float> samples(const Block& block) const {
+    return {reinterpret_cast<float*>(memory.data()) + block.first,
+            3 * static_cast<std::size_t>(lights) * block.pixels};
+  }
 };
 
 /// Reads about `maxPixels` pixels of the given groups (rising) under `lights`, in blocks spread

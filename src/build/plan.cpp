@@ -1,6 +1,9 @@
 #include "build/plan.h"
 
 #include <fmt/format.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
 
 #include "build/pilot.h"
 #include "illum/error.h"
@@ -53,9 +56,28 @@ std::uint64_t pixelsOf(const Capture& capture, const TurnedFrame& frame) {
 
 QuantiserTrial trialOf(const PlannedBasis& basis, const Pilot& pilot, Response response,
                        std::size_t trials) {
-  std::vector<float> planes(static_cast<std::size_t>(basis.fit.basis.planes()) * pilot.pixels);
-  basis.fit.planes.apply(pilot.samples, pilot.pixels, planes);
+  const auto count = static_cast<std::size_t>(basis.fit.basis.planes());
+  std::vector<float> planes(count * pilot.pixels);
+  std::vector<std::size_t> firstPixel;
+  for (std::size_t first = 0; const Pilot::Block& block : pilot.blocks) {
+    firstPixel.push_back(first);
+    first += block.pixels;
+  }
+  tbb::parallel_for(std::size_t{0}, pilot.blocks.size(), [&](std::size_t i) {
+    const Pilot::Block& block = pilot.blocks[i];
+    std::vector<float> ofBlock(count * block.pixels);
+    basis.fit.planes.apply(pilot.samples(block), block.pixels, ofBlock);
+    for (std::size_t k = 0; k < count; ++k)
+      std::copy_n(ofBlock.data() + k * block.pixels, block.pixels,
+                  planes.data() + k * pilot.pixels + firstPixel[i]);
+  });
   return {basis.fit, basis.directions, response, planes, pilot.pixels, pilot.complete, trials};
+}
+
+// Whether photographs' samples are as they were in a file of bytes.
+bool isOfWholeBytes(const Pilot& pilot) {
+  return std::ranges::all_of(
+      pilot.blocks, [&](const Pilot::Block& block) { return areWholeBytes(pilot.samples(block)); });
 }
 
 }  // namespace
@@ -126,7 +148,7 @@ Plan planObject(const Capture& capture, const LightChoice& lights, const BuildOp
     progress.begin("choosing the light basis", 1);
     basis.fit = fitBasis(basis.directions, statisticsOf(pilot), fitOptions);
     if (exact)
-      bytes = bytes && areWholeBytes(pilot.samples);
+      bytes = bytes && isOfWholeBytes(pilot);
     else
       trials.push_back(trialOf(basis, pilot, response, frames.size()));
     progress.end();

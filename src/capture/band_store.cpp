@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "capture/lanes.h"
-#include "capture/page_buffer.h"
+#include "core/page_buffer.h"
 #include "capture/progress_stage.h"
 #include "capture/scratch_stack.h"
 

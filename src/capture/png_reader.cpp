@@ -13,7 +13,7 @@
 #include <utility>
 
 #include "capture/exif_orientation.h"
-#include "capture/page_buffer.h"
+#include "core/page_buffer.h"
 #include "illum/error.h"
 
 namespace illum {

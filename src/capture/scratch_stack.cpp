@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cstring>
 
-#include "capture/page_buffer.h"
+#include "core/page_buffer.h"
 
 namespace illum {
 namespace {

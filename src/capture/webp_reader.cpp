@@ -8,7 +8,7 @@
 #include <string_view>
 
 #include "capture/exif_orientation.h"
-#include "capture/page_buffer.h"
+#include "core/page_buffer.h"
 #include "illum/error.h"
 
 namespace illum {

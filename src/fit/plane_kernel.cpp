@@ -43,15 +43,28 @@ HWY_INLINE void sumPanel(D d, const PlaneProduct& product, std::size_t plane,
   }
 }
 
+// The same for `count` planes, at most kCount.
+template <std::size_t kCount, class D>
+HWY_INLINE void sumGroup(D d, const PlaneProduct& product, std::size_t plane, std::size_t count,
+                         const float* panel, float* out, std::size_t stride) {
+  if constexpr (kCount > 1) {
+    if (count < kCount)
+      return sumGroup<kCount - 1>(d, product, plane, count, panel, out, stride);
+  }
+  sumPanel<kCount>(d, product, plane, panel, out, stride);
+}
+
+// Planes in groups of nearly the same size: the sums of a small rest alone would wait for
+// themselves, for an addition takes several times as long as it takes to begin the next one.
 template <class D>
 HWY_INLINE void allPlanes(D d, const PlaneProduct& product, const float* panel, float* out,
                           std::size_t stride) {
   std::size_t plane = 0;
-  for (; plane + kPlanes <= product.planes; plane += kPlanes)
-    sumPanel<kPlanes>(d, product, plane, panel, out, stride);
-  for (; plane + 3 <= product.planes; plane += 3)
-    sumPanel<3>(d, product, plane, panel, out, stride);
-  for (; plane < product.planes; ++plane) sumPanel<1>(d, product, plane, panel, out, stride);
+  for (std::size_t groups = (product.planes + kPlanes - 1) / kPlanes; groups > 0; --groups) {
+    const std::size_t count = (product.planes - plane + groups - 1) / groups;
+    sumGroup<kPlanes>(d, product, plane, count, panel, out, stride);
+    plane += count;
+  }
 }
 
 // Samples of a few pixels are copied together first: rows of samples lie so far apart, often by a
@@ -65,12 +78,18 @@ void planeSums(const PlaneProduct& product, const float* HWY_RESTRICT samples, s
   std::vector<float> panel(product.inner * width), sums;
   for (std::size_t p = 0; p < pixels; p += width) {
     const std::size_t count = std::min(width, pixels - p);
-    for (std::size_t i = 0; i < product.inner; ++i)
-      std::copy_n(samples + i * pixels + p, count, panel.data() + i * width);
     if (count == width) {
+      for (std::size_t i = 0; i < product.inner; ++i) {
+        const float* from = samples + i * pixels + p;
+        float* to = panel.data() + i * width;
+        hn::StoreU(hn::LoadU(d, from), d, to);
+        hn::StoreU(hn::LoadU(d, from + width / 2), d, to + width / 2);
+      }
       allPlanes(d, product, panel.data(), out + p, pixels);
       continue;
     }
+    for (std::size_t i = 0; i < product.inner; ++i)
+      std::copy_n(samples + i * pixels + p, count, panel.data() + i * width);
     sums.resize(product.planes * width);
     allPlanes(d, product, panel.data(), sums.data(), width);
     for (std::size_t k = 0; k < product.planes; ++k)
