@@ -1,6 +1,7 @@
 // The nearest surface along the ray through every pixel's centre.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <vector>
@@ -27,6 +28,8 @@ class RangeBuffer {
   /// A triangle whose vertices run clockwise in the target's picture (y down); others turn their
   /// backs and are not drawn.
   void drawTriangle(ScreenVertex a, ScreenVertex b, ScreenVertex c);
+  /// The least of all ranges; kNothing if nothing was drawn.
+  double nearest() const { return *std::min_element(ranges_.begin(), ranges_.end()); }
   /// kNothing where nothing was drawn.
   double range(int x, int y) const {
     return ranges_[static_cast<std::size_t>(y) * static_cast<std::size_t>(size_.width) +

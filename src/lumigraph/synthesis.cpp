@@ -16,6 +16,9 @@ namespace {
 
 // Where less than this part of what should see a point does, others are asked as well.
 constexpr float kEnoughVisible = 0.5F;
+// In pixels, by how much what is nearest may be displaced in a view that stands where the target
+// does.
+constexpr double kSamePlace = 0.01;
 // Depth pictures of free cameras that are drawn: enough that what one does not see another does.
 constexpr std::size_t kMostDrawnViews = 12;
 
@@ -80,6 +83,11 @@ class Synthesis {
   const SlabView* slabView(int view) const {
     return std::get_if<SlabView>(&source_.views()[static_cast<std::size_t>(view)].geometry);
   }
+  // Whether the view stands where the target stands, but for the rounding of poses.
+  bool standsWithTarget(const ViewProjector& view) const {
+    const double apart = length(view.eye() - target_.eye());
+    return apart == 0 || apart < kSamePlace * target_.pixelWidth(nearestRange_);
+  }
   // Whether any ray of the target asks for the view.
   bool isAsked(const Rig& rig, int local, Ring ring) const;
   std::vector<int> drawnViews(const Rig& rig) const;
@@ -100,6 +108,7 @@ class Synthesis {
   SurfacePoints points_;
   std::unique_ptr<BlendRule> freeRule_;  // of the views that belong to no slab, at the points
   Picture near_, wide_;                  // sums; the second is empty where it was not needed
+  double nearestRange_ = 0;              // of the surface, from the target
   const Picture* hidden_ = nullptr;      // depth of the target where the plane is not seen
 };
 
@@ -204,6 +213,8 @@ void Synthesis::findSurface() {
                                                 : Vector3{kNothing, kNothing, kNothing};
     }
   });
+  nearestRange_ = std::min(all.nearest(), whole.nearest());
+  if (!(nearestRange_ < kNothing)) nearestRange_ = 0;
 }
 
 void Synthesis::seeSurface(Undefined undefined) {
@@ -260,7 +271,7 @@ void Synthesis::add(const Rig& rig, Ring ring, Undefined undefined, Picture& sum
     const auto picture = source_.picture(view);
     const ViewProjector& projector = projectors_[static_cast<std::size_t>(view)];
     // What stands where the target stands sees what the target sees, whatever others say of depth.
-    const bool asksDepth = byDepth_ && length(projector.eye() - target_.eye()) > 0;
+    const bool asksDepth = byDepth_ && !standsWithTarget(projector);
     const auto depth = asksDepth ? source_.depth(view) : nullptr;
     const ViewSamples samples(projector, *picture, depth.get(), undefined);
     tbb::parallel_for(tbb::blocked_range<int>(0, target_.size().height), [&](const auto& rows) {
