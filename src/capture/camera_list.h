@@ -35,7 +35,8 @@ CaptureFile captureFromColmap(const ColmapText& text);
 
 /// Which of the files that this and capture_file.h read stands in `folder`: capture.json,
 /// transforms.json, or COLMAP's cameras.txt and images.txt in it, in sparse/ or in sparse/0/ (its
-/// pictures in images/, or beside the files). Empty path: none.
+/// pictures in images/, or beside the files). Empty path: none. Beside lists of other programs a
+/// proxy.obj in `folder` is the mesh of what they show.
 std::filesystem::path cameraListIn(const std::filesystem::path& folder);
 
 }  // namespace illum

@@ -27,7 +27,7 @@ namespace fs = std::filesystem;
 
 constexpr std::uint64_t kMaxCaptureFileBytes = std::uint64_t{1} << 30;
 constexpr int kMostOpenViews = 4;
-constexpr const char* kColmapProxyName = "proxy.obj";
+constexpr const char* kProxyName = "proxy.obj";  // where a list of cameras names none
 
 // A picture of one number a pixel: OpenEXR as it is, anything else as coverage out of 255.
 Picture readValues(const fs::path& file, Size expected) {
@@ -73,8 +73,13 @@ CaptureFile readColmap(const fs::path& folder, const fs::path& images) {
   text.camerasName = cameras.string();
   std::error_code missing;
   if (fs::is_directory(folder / "images", missing)) text.picturesFolder = "images";
-  CaptureFile file = captureFromColmap(text);
-  if (fs::is_regular_file(folder / kColmapProxyName, missing)) file.proxy = kColmapProxyName;
+  return captureFromColmap(text);
+}
+
+// Lists of other programs say nothing of meshes.
+CaptureFile withProxyBeside(const fs::path& folder, CaptureFile file) {
+  std::error_code missing;
+  if (fs::is_regular_file(folder / kProxyName, missing)) file.proxy = kProxyName;
   return file;
 }
 
@@ -82,13 +87,14 @@ CaptureFile readColmap(const fs::path& folder, const fs::path& images) {
 CaptureFile readCameraList(const fs::path& folder, const PhotographOptions& options) {
   const fs::path found = cameraListIn(folder);
   const fs::path list = found.empty() ? folder / kCaptureFileName : found;
-  if (list.filename() == "images.txt") return readColmap(folder, list);
+  if (list.filename() == "images.txt") return withProxyBeside(folder, readColmap(folder, list));
   const std::string text = readTextFile(list, kMaxCaptureFileBytes);
   if (list.filename() == kCaptureFileName) return captureFileFromText(text, list.string());
-  return captureFromTransforms(text, list.string(), [&](const std::string& name) {
+  const auto sizeOfPicture = [&](const std::string& name) {
     FilePool pool;
     return readHeader(pool, pool.add(folder / name), options.memoryBytes).upright();
-  });
+  };
+  return withProxyBeside(folder, captureFromTransforms(text, list.string(), sizeOfPicture));
 }
 
 // Views are opened when they are read, a few at a time: a thousand views under a thousand lights
