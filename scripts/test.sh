@@ -55,9 +55,32 @@ count_junit() { # FILE
   count $(($(junit "$1" tests) - bad - idle)) "$bad" "$idle"
 }
 
-run_ctest() { # NAME BUILD
+# One test program with a share of its tests. What it says is shown where it fails.
+run_shard() { # OUTPUT SHARD PROGRAM
+  local out=$1/$(basename "$3").$2
+  GTEST_TOTAL_SHARDS=$jobs GTEST_SHARD_INDEX=$2 GTEST_OUTPUT=xml:$out.xml GTEST_BRIEF=1 \
+    "$3" >"$out.log" 2>&1 || { cat "$out.log"; echo "$3, shard $2: failed"; return 1; }
+}
+export -f run_shard
+export jobs
+
+# All test programs of a build, each once a core: a process for every test, as ctest has it, takes
+# longer to start than to test.
+run_gtests() { # NAME BUILD
+  local status=0 out=$results/$1
+  mkdir -p "$out"
+  find "$2/src" -name 'illum_*_test' -type f | sort | while read -r program; do
+    for shard in $(seq 0 $((jobs - 1))); do echo "$shard $program"; done
+  done | xargs -P "$jobs" -L 1 bash -c 'run_shard "$0" "$@"' "$out" || status=1
+  cat "$out"/*.xml >"$out.xml" || status=1
+  count_junit "$out.xml"
+  summaries+=("$1: $(junit "$out.xml" tests) tests, $(junit "$out.xml" failures) failed")
+  return "$status"
+}
+
+run_ctest() { # NAME BUILD [OPTIONS]
   local status=0
-  ctest --test-dir "$2" -j "$jobs" --output-junit "$results/$1.xml" 2>&1 | tee "$results/$1.log" ||
+  ctest --test-dir "$2" "${@:3}" -j "$jobs" --output-junit "$results/$1.xml" 2>&1 | tee "$results/$1.log" ||
     status=$?
   [ ! -f "$results/$1.xml" ] || count_junit "$results/$1.xml"
   summaries+=("$1: $(grep 'tests passed' "$results/$1.log" || echo 'ctest ended early')")
@@ -107,7 +130,8 @@ cmake --preset release -DILLUM_TESTS=ON >"$results/configure.log"
 cmake --build --preset release
 
 stage "Unit tests"
-run_ctest unit build/release
+run_gtests unit build/release
+run_ctest documents build/release -R '^(docs|format)\.'
 
 stage "Command line"
 run_pytest cli -n "$jobs" tests/cli
@@ -118,7 +142,8 @@ run_pytest install tests/install
 stage "illum_read alone"
 cmake --preset read -DILLUM_TESTS=ON >"$results/configure-read.log"
 cmake --build --preset read
-run_ctest read build/read
+run_gtests read build/read
+run_ctest read-documents build/read -R '^(docs|format)\.'
 
 stage "Browser"
 (cd tests/browser && npm ci --no-audit --no-fund --loglevel=error)
@@ -135,7 +160,8 @@ cmake --preset sanitize -DILLUM_TESTS=ON -DILLUM_WARNINGS_AS_ERRORS=ON \
 cmake --build --preset sanitize
 export ASAN_OPTIONS=exitcode=99 UBSAN_OPTIONS=exitcode=99:print_stacktrace=1
 export LSAN_OPTIONS=suppressions=$PWD/tests/lsan.supp:print_suppressions=0
-run_ctest sanitized-unit build/sanitize
+run_gtests sanitized-unit build/sanitize
+run_ctest sanitized-documents build/sanitize -R '^(docs|format)\.'
 ILLUM_BIN=$PWD/build/sanitize/tools/illum/illum run_pytest sanitized-cli \
   -n "$jobs" tests/cli/test_hostile_photographs.py tests/cli/test_hostile_objects.py
 

@@ -23,8 +23,10 @@ void NearLights::planeValues(const TilePlanes& codes, std::size_t texel,
 }
 
 void NearLights::addTo(std::span<float> rgb, const TilePlanes& codes, std::size_t first,
-                       std::span<const Vector3> points) const {
-  std::vector<float> basis(basis_->evaluateSize()), values(basis.size() / 3);
+                       std::span<const Vector3> points, std::vector<float>& scratch) const {
+  const std::size_t size = basis_->evaluateSize();
+  scratch.resize(size + size / 3);
+  const std::span<float> basis(scratch.data(), size), values(scratch.data() + size, size / 3);
   for (std::size_t i = 0; i < points.size(); ++i) {
     planeValues(codes, first + i, values);
     for (const NearLight& light : lights_) {

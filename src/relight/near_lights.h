@@ -20,9 +20,9 @@ class NearLights {
   bool empty() const { return lights_.empty(); }
 
   /// Adds what the lights give to texels first, first + 1, ... of a tile, which lie at `points` of
-  /// the group's frame, to their linear RGB.
+  /// the group's frame, to their linear RGB. `scratch` is memory that is used again.
   void addTo(std::span<float> rgb, const TilePlanes& codes, std::size_t first,
-             std::span<const Vector3> points) const;
+             std::span<const Vector3> points, std::vector<float>& scratch) const;
 
  private:
   void planeValues(const TilePlanes& codes, std::size_t texel, std::span<float> values) const;

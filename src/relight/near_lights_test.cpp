@@ -21,7 +21,8 @@ std::vector<double> underNear(const MattObject& object, Response response,
                               const std::vector<Vector3>& points, const Lighting& lighting) {
   const NearLights lights(object.basis, object.coding, response, illuminationOf(lighting).nearby);
   std::vector<float> rgb(3 * points.size());
-  lights.addTo(rgb, object.planes(), 0, points);
+  std::vector<float> scratch;
+  lights.addTo(rgb, object.planes(), 0, points, scratch);
   std::vector<double> red;
   for (std::size_t i = 0; i < rgb.size(); i += 3) red.push_back(rgb[i]);
   return red;

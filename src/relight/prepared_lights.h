@@ -14,6 +14,7 @@ struct PreparedLights::State {
   Object object;  // keeps the basis that `nearby` refers to
   int group = 0;
   std::shared_ptr<const Illumination> lights;  // as they were given, in the object frame
+  double environmentError = 0;
   Passes distant;
   NearLights nearby;
   Surface surface;

@@ -77,21 +77,25 @@ Illumination inGroup(const View& view, const Illumination& lights) {
 }
 
 // Directional lights instead of environments, where each direction has to be decoded by itself.
-void reduceEnvironments(const Object& object, int group, const PrepareOptions& options,
-                        Illumination& lights) {
-  if (lights.environments.empty()) return;
+// Returns the greatest error.
+double reduceEnvironments(const Object& object, int group, const PrepareOptions& options,
+                          Illumination& lights) {
+  if (lights.environments.empty()) return 0;
   // The coarsest level is one tile: all of the picture.
   const PlaneCodes probe =
       probeOf(object.planeTile(group, object.levels(group) - 1, 0, 0), kProbeTexels);
   const Manifest& manifest = object.manifest();
+  double error = 0;
   for (const Environment& environment : lights.environments) {
     const ReducedEnvironment reduced =
         reduceEnvironment(environment, object.basis(group), manifest.coding(group),
                           manifest.response, probe, options.environmentError);
     lights.directional.insert(lights.directional.end(), reduced.lights.begin(),
                               reduced.lights.end());
+    error = std::max(error, reduced.error);
   }
   lights.environments.clear();
+  return error;
 }
 
 // Whether lights come down to the same numbers for both groups. A basis belongs to groups that are
@@ -124,6 +128,10 @@ int PreparedLights::passes() const {
   return state_->distant.count();
 }
 
+double PreparedLights::environmentError() const {
+  return state_->environmentError;
+}
+
 PreparedLights Relighter::prepare(const Illumination& lights, int group,
                                   const PrepareOptions& options) const {
   const Object& object = state_->cache.object();
@@ -131,8 +139,9 @@ PreparedLights Relighter::prepare(const Illumination& lights, int group,
   Illumination turned = inGroup(object.view(group), lights);
   const CodingEntry& coding = object.manifest().coding(group);
   const Response response = object.manifest().response;
-  if (response != Response::Linear) reduceEnvironments(object, group, options, turned);
   auto state = std::make_shared<PreparedLights::State>();
+  if (response != Response::Linear)
+    state->environmentError = reduceEnvironments(object, group, options, turned);
   state->object = object;
   state->group = group;
   state->lights = std::make_shared<const Illumination>(lights);
@@ -200,7 +209,7 @@ Picture Relighter::relightRegion(const PreparedLights& lights, const Rectangle& 
         prepared.distant.relight(*codes, first, rgb, scratch);
         if (near) {
           surface.points(part.x - tile.x, row - tile.y, points);
-          prepared.nearby.addTo(rgb, *codes, first, points);
+          prepared.nearby.addTo(rgb, *codes, first, points, scratch);
         }
         storeRow(rgb, mask.empty() ? mask.samples() : mask.row(row - tile.y).subspan(left, width),
                  &picture.at(part.x - region.x, row - region.y, 0));

@@ -42,7 +42,14 @@ class StoredView final : public Sight {
         level_(level),
         options_(std::move(options)) {}
   Picture under(const Illumination& lights) override {
-    return relighter_.relight(relighter_.prepare(lights, group_, options_), level_);
+    const PreparedLights prepared = relighter_.prepare(lights, group_, options_);
+    if (prepared.environmentError() > options_.environmentError) {
+      TerminalProgress().remark(fmt::format(
+          "the environment's {} directions leave an error of {:.1f} % of the picture's brightness; "
+          "{:.1f} % was aimed at",
+          prepared.passes(), 100 * prepared.environmentError(), 100 * options_.environmentError));
+    }
+    return relighter_.relight(prepared, level_);
   }
 
  private:
