@@ -62,7 +62,9 @@ struct Plane {
 struct SynthesisOptions {
   /// What is sharp where no depth tells where surfaces are, or where depth is not to be looked at.
   /// Empty: by depth, if the views have it; else each slab's own window, the plane z = 0 of a
-  /// photograph, the plane that free cameras look at, and infinity for panoramas.
+  /// photograph, the plane that free cameras look at, and infinity for panoramas and for cameras
+  /// that all look the same way (of an object, Lumigraph finds the plane on which their pictures
+  /// agree best).
   std::optional<Plane> focus;
   /// Slabs: the radius of the synthetic aperture on the uv plane, in units of the object (Isaksen
   /// et al. 2000); 0: between the four nearest view points only. Needs `focus`, or views without

@@ -1,8 +1,11 @@
 #include "illum/lumigraph.h"
 
+#include <deque>
+
 #include "illum/relight.h"
 #include "lumigraph/default_focus.h"
 #include "lumigraph/object_views.h"
+#include "lumigraph/sharpest_plane.h"
 
 namespace illum {
 
@@ -15,6 +18,20 @@ struct Lumigraph::State {
   Object object;
   Relighter relighter;
   ObjectViews views;
+  std::optional<std::optional<Plane>> sharpest;  // set when it was looked for
+
+  // Cameras that all look the same way say nothing of how far away things are, and without depth
+  // neither does anything else.
+  bool needsFocus(const SynthesisOptions& options) const {
+    if (options.focus || views.hasDepth()) return false;
+    std::deque<ViewProjector> projectors;
+    std::vector<const ViewProjector*> all;
+    for (const View& view : views.views()) {
+      if (!std::holds_alternative<PinholeCamera>(view.geometry)) return false;
+      all.push_back(&projectors.emplace_back(view.geometry));
+    }
+    return !planeLookedAt(all);
+  }
 };
 
 Lumigraph::Lumigraph(Object object, std::uint64_t memoryBytes)
@@ -26,6 +43,8 @@ const Object& Lumigraph::object() const {
 }
 
 void Lumigraph::setLights(const Illumination& lights) {
+  // Under other lights there may be something to see.
+  if (state_->sharpest && !*state_->sharpest) state_->sharpest.reset();
   // Views share what a slab's lights come down to; what was prepared last is of the slab at hand.
   state_->views.setRelit([relighter = &state_->relighter,
                           latest = state_->relighter.prepare(lights)](int group) mutable {
@@ -39,7 +58,11 @@ void Lumigraph::setLights(std::span<const DirectionalLight> lights) {
 }
 
 SynthesisedView Lumigraph::see(const ViewGeometry& camera, const SynthesisOptions& options) {
-  return synthesise(state_->views, camera, options);
+  if (!state_->needsFocus(options)) return synthesise(state_->views, camera, options);
+  if (!state_->sharpest) state_->sharpest = sharpestPlane(state_->views);
+  SynthesisOptions focused = options;
+  focused.focus = *state_->sharpest;
+  return synthesise(state_->views, camera, focused);
 }
 
 Vector3 Lumigraph::middle() const {
