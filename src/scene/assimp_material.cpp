@@ -14,28 +14,12 @@
 
 #include "illum/error.h"
 #include "scene/texture_file.h"
+#include "scene/uri.h"
 
 namespace illum {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// "%20" and alike, as glTF writes file names.
-std::string unescaped(const std::string& text) {
-  std::string out;
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    const auto hex = [&](std::size_t at) {
-      return std::isxdigit(static_cast<unsigned char>(text[at])) != 0;
-    };
-    if (text[i] == '%' && i + 2 < text.size() && hex(i + 1) && hex(i + 2)) {
-      out += static_cast<char>(std::stoi(text.substr(i + 1, 2), nullptr, 16));
-      i += 2;
-    } else {
-      out += text[i];
-    }
-  }
-  return out;
-}
 
 /// Where a texture of that name lies: as named, beside the mesh file, or there without its folders
 /// (exporters leave the author's own in the name).

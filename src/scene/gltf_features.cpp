@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "illum/error.h"
+#include "scene/gltf_check.h"
 #include "scene/json_guard.h"
 
 namespace illum {
@@ -42,6 +43,15 @@ std::string_view jsonOf(std::span<const std::byte> file, const std::string& sour
         Fault::Input,
         fmt::format("{}: expected a whole binary glTF 2 file, found a damaged one", source));
   return {text + kHeader + kChunkHeader, littleEndian(file, kHeader)};
+}
+
+/// Of the second chunk of a .glb; 0 if there is none.
+std::uint64_t binaryBytesOf(std::span<const std::byte> file, std::string_view json) {
+  constexpr std::size_t kChunkHeader = 8;
+  const auto* end = reinterpret_cast<const std::byte*>(json.data() + json.size());
+  const auto rest = file.subspan(static_cast<std::size_t>(end - file.data()));
+  if (rest.size() < kChunkHeader) return 0;
+  return std::min<std::uint64_t>(littleEndian(rest, 0), rest.size() - kChunkHeader);
 }
 
 std::size_t countOf(const Json& root, const char* name) {
@@ -83,8 +93,9 @@ void checkVersion(const Json& root, const std::string& source) {
 
 }  // namespace
 
-std::vector<std::string> gltfRemarks(std::span<const std::byte> file, const std::string& source) {
-  const Json root = guardedJson(jsonOf(file, source), source);
+GltfFeatures gltfFeatures(std::span<const std::byte> file, const std::string& source) {
+  const std::string_view json = jsonOf(file, source);
+  const Json root = guardedJson(json, source);
   checkVersion(root, source);
   const std::vector<std::string> required = unknownOf(root, "extensionsRequired");
   if (!required.empty())
@@ -92,7 +103,9 @@ std::vector<std::string> gltfRemarks(std::span<const std::byte> file, const std:
                 fmt::format("{}: expected a file that can be read without extensions, "
                             "found that it requires {}",
                             source, required.front()));
-  std::vector<std::string> remarks;
+  GltfFeatures features;
+  features.triangles = checkedGltfTriangles(root, binaryBytesOf(file, json), source);
+  std::vector<std::string>& remarks = features.remarks;
   for (const std::string& name : unknownOf(root, "extensionsUsed"))
     remarks.push_back(
         fmt::format("{}: the extension {} is not supported; the file is read without "
@@ -108,7 +121,7 @@ std::vector<std::string> gltfRemarks(std::span<const std::byte> file, const std:
         fmt::format("{}: morph targets are not supported; meshes are shown without", source));
   if (countOf(root, "cameras") > 0)
     remarks.push_back(fmt::format("{}: cameras of mesh files are not used", source));
-  return remarks;
+  return features;
 }
 
 }  // namespace illum

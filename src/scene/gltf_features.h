@@ -1,16 +1,24 @@
-// What a glTF file asks for that this program does not have.
+// What a glTF file has, and what it asks for that this program does not have.
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <string>
 #include <vector>
 
 namespace illum {
 
-/// One sentence for each extension, animation, skin, morph target, camera or light in the file that
-/// is not taken over. Throws Error naming `source` for a file that requires an extension that is
-/// not known here, and for one that is no glTF 2. Untrusted input is safe.
-std::vector<std::string> gltfRemarks(std::span<const std::byte> file, const std::string& source);
+struct GltfFeatures {
+  /// One sentence for each extension, animation, skin, morph target, camera or light in the file
+  /// that is not taken over.
+  std::vector<std::string> remarks;
+  std::uint64_t triangles = 0;  ///< of the meshes that are shown, each counted once
+};
+
+/// Throws Error naming `source` for a file that requires an extension that is not known here, for
+/// one that is no glTF 2, and for one whose numbers contradict each other (gltf_check.h). Untrusted
+/// input is safe.
+GltfFeatures gltfFeatures(std::span<const std::byte> file, const std::string& source);
 
 }  // namespace illum

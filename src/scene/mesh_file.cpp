@@ -12,6 +12,7 @@
 #include <assimp/Importer.hpp>
 #include <cctype>
 #include <cmath>
+#include <iterator>
 #include <memory>
 #include <numbers>
 #include <utility>
@@ -21,8 +22,10 @@
 #include "scene/assimp_material.h"
 #include "scene/gltf_features.h"
 #include "scene/mesh_check.h"
+#include "scene/obj_check.h"
 #include "scene/ply_file.h"
 #include "scene/smooth_normals.h"
+#include "scene/uri.h"
 
 namespace illum {
 namespace {
@@ -55,20 +58,28 @@ class HeldStream final : public Assimp::MemoryIOStream {
   std::vector<std::byte> bytes_;  // moving a vector leaves its memory where it is
 };
 
-/// Opens ordinary files alone, for reading alone, up to a limit.
+/// Opens ordinary files alone, for reading alone, up to a limit. Names may be escaped as in glTF,
+/// which assimp does not know.
 class OrdinaryFiles final : public Assimp::IOSystem {
  public:
-  bool Exists(const char* name) const override {
-    std::error_code ignored;
-    return fs::is_regular_file(name, ignored);
-  }
+  bool Exists(const char* name) const override { return !found(name).empty(); }
   char getOsSeparator() const override { return '/'; }
   Assimp::IOStream* Open(const char* name, const char* mode) override {
-    if (std::string_view(mode).find_first_of("wa+") != std::string_view::npos || !Exists(name))
+    const std::string file = found(name);
+    if (std::string_view(mode).find_first_of("wa+") != std::string_view::npos || file.empty())
       return nullptr;
-    return new HeldStream(readFile(name, kMaxFileBytes));  // assimp closes it by Close
+    return new HeldStream(readFile(file, kMaxFileBytes));  // assimp closes it by Close
   }
   void Close(Assimp::IOStream* stream) override { delete stream; }
+
+ private:
+  /// Empty: there is none.
+  static std::string found(const std::string& name) {
+    std::error_code ignored;
+    for (const std::string& spelling : {name, unescaped(name)})
+      if (fs::is_regular_file(spelling, ignored)) return spelling;
+    return {};
+  }
 };
 
 std::string oneLine(std::string text) {
@@ -209,6 +220,27 @@ void addMeshes(const aiScene& from, const fs::path& file, double smoothRadians, 
   if (scene.meshes.empty()) throw inputError(file, "triangles", "none");
 }
 
+/// assimp leaves out faces whose corners are not there and says so to nobody.
+void checkTriangles(const aiScene& scene, std::uint64_t expected, const fs::path& file) {
+  std::uint64_t found = 0;
+  for (unsigned i = 0; i < scene.mNumMeshes; ++i) found += scene.mMeshes[i]->mNumFaces;
+  if (found < expected)
+    throw inputError(file, fmt::format("{} triangles between vertices that are there", expected),
+                     fmt::format("{} with others", expected - found));
+}
+
+void remarkOnMissingMaterials(const std::vector<std::string>& names, const fs::path& file,
+                              std::vector<std::string>& remarks) {
+  std::error_code ignored;
+  fs::path beside = file;  // assimp looks there, too
+  if (fs::is_regular_file(beside.replace_extension(".mtl"), ignored)) return;
+  for (const std::string& name : names)
+    if (!fs::is_regular_file(file.parent_path() / name, ignored))
+      remarks.push_back(
+          fmt::format("{}: names the materials '{}', which are not there; it is shown without",
+                      file.string(), oneLine(name)));
+}
+
 /// assimp 5.2 neither ends nor lives on where a PLY file is cut off.
 Scene plyScene(const std::vector<std::byte>& bytes, const fs::path& file, double smoothRadians,
                std::vector<std::string>& remarks) {
@@ -236,15 +268,19 @@ Scene readMeshFile(const fs::path& file, std::optional<double> smoothDegrees,
                      "a name with another ending");
   const std::vector<std::byte> bytes = readFile(file, kMaxFileBytes);
   if (bytes.empty()) throw inputError(file, "a mesh file", "an empty one");
-  if (isGltf(file)) {
-    for (std::string& remark : gltfRemarks(bytes, file.string()))
-      remarks.push_back(std::move(remark));
-  }
+  GltfFeatures features;
+  if (isGltf(file)) features = gltfFeatures(bytes, file.string());
+  std::ranges::move(features.remarks, std::back_inserter(remarks));
   const double degrees = smoothDegrees.value_or(isGltf(file) ? 0 : 60);
   const double smoothRadians = degrees * std::numbers::pi / 180;
   if (endingOf(file) == ".ply") return plyScene(bytes, file, smoothRadians, remarks);
+  if (endingOf(file) == ".obj") {
+    const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    remarkOnMissingMaterials(checkedObjMaterials(text, file.string()), file, remarks);
+  }
   Assimp::Importer importer;
   const aiScene& from = import(importer, file);
+  checkTriangles(from, features.triangles, file);
   Scene scene;
   remarkOn(from, file, remarks);
   addMeshes(from, file, smoothRadians, scene, remarks);

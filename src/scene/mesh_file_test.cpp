@@ -11,10 +11,12 @@
 #include "illum/error.h"
 #include "illum/picture_io.h"
 #include "scene/mesh_check.h"
+#include "scene/obj_check.h"
 #include "scene/shapes.h"
 #include "scene/smooth_normals.h"
 #include "scene/teapot.h"
 #include "scene/test_files.h"
+#include "scene/uri.h"
 
 namespace illum {
 namespace {
@@ -248,6 +250,63 @@ TEST(MeshFile, IndicesOutOfRangeAreRefused) {
   std::string ply = kColouredPly;
   ply.replace(ply.find("3 0 1 2"), 7, "3 0 1 7");
   EXPECT_NE(errorOf(folder.write("i.ply", ply)), "no error");
+}
+
+TEST(MeshFile, GltfWhoseNumbersContradictEachOtherIsRefused) {
+  const ScratchFolder folder;
+  const std::string good = triangleGltf();
+  const auto with = [&](const std::string& from, const std::string& to) {
+    std::string gltf = good;
+    EXPECT_NE(gltf.find(from), std::string::npos) << from;
+    return errorOf(folder.write("a.gltf", gltf.replace(gltf.find(from), from.size(), to)));
+  };
+  EXPECT_THAT(with("\"byteOffset\": 36", "\"byteOffset\": 18446744073709551612"),
+              HasSubstr("bufferViews[1].byteOffset"));
+  EXPECT_THAT(with("\"count\": 3, \"type\": \"VEC3\"", "\"count\": 4, \"type\": \"VEC3\""),
+              HasSubstr("accessors[0]"));
+  EXPECT_THAT(with("data:application/octet-stream;base64,", "../"), HasSubstr("buffers[0].uri"));
+  EXPECT_THAT(with("{\"mesh\": 0", "{\"mesh\": 0, \"children\": [0]"),
+              HasSubstr("child of its own"));
+}
+
+TEST(MeshFile, LongListsOfGltfTakeTimeInProportion) {
+  const ScratchFolder folder;
+  std::string nodes;
+  for (int i = 0; i < 200000; ++i) nodes += ", {}";
+  std::string gltf = triangleGltf();
+  const std::string node = R"("nodes": [{"mesh": 0})";
+  gltf.insert(gltf.find(node) + node.size(), nodes);
+  // With a parser that looks through the list for each of its entries this takes minutes.
+  EXPECT_EQ(readWithoutRemarks(folder.write("long.gltf", gltf)).meshes.size(), 1u);
+}
+
+TEST(Uri, StaysBelow) {
+  for (const char* name : {"a.bin", "a/b.bin", "./a.bin", "a/../b.bin", "a%20b.bin", "..a", "%"})
+    EXPECT_TRUE(staysBelow(name)) << name;
+  for (const char* name : {"", ".", "..", "/a", "\\a", "../a", "a/../../b", "a/../..", "%2e%2e/a",
+                           "..%2fa", "%2fa", "c:a", "http://a/b", "a\nb", "a%00b"})
+    EXPECT_FALSE(staysBelow(name)) << name;
+  EXPECT_EQ(unescaped("a%20b%2"), "a b%2");
+}
+
+TEST(ObjCheck, CountsFromBothEndsAndNamesTheLine) {
+  const std::string points = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
+  const auto lineOf = [](const std::string& text) {
+    try {
+      checkedObjMaterials(text, "a.obj");
+      return std::string("none");
+    } catch (const Error& error) {
+      return std::string(error.what()).substr(0, 8);
+    }
+  };
+  EXPECT_EQ(lineOf(points + "f 1 2 3\nf -1 -2 -3"), "none");
+  EXPECT_EQ(lineOf("f 1 2 3\n" + points), "none") << "points may come later";
+  EXPECT_EQ(lineOf(points + "f 1 2 4\nv 1 1 1\nf 1 2 5\n"), "a.obj:6:");
+  EXPECT_EQ(lineOf(points + "f -1 -2 -4\n"), "a.obj:4:");
+  EXPECT_EQ(lineOf(points + "f 1/1 2 3\n"), "a.obj:4:");
+  EXPECT_EQ(lineOf("vn 0 0 1\n" + points + "f 1//1 2//1 3//2\n"), "a.obj:5:");
+  EXPECT_THAT(checkedObjMaterials("mtllib  a b.mtl \r\nmtllib c.mtl", "a.obj"),
+              testing::ElementsAre("a b.mtl", "c.mtl"));
 }
 
 TEST(MeshFile, EveryTruncationIsReadOrRefused) {

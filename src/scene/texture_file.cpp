@@ -8,6 +8,7 @@
 #include <array>
 #include <cctype>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <string_view>
 #include <vector>
@@ -15,6 +16,7 @@
 #include "core/files.h"
 #include "illum/colour.h"
 #include "illum/error.h"
+#include "image/formats.h"
 
 namespace illum {
 namespace {
@@ -53,13 +55,41 @@ Error damaged(const std::string& name, std::string found) {
                                     found.empty() ? "something that cannot be decoded" : found)};
 }
 
-void checkSpec(const OIIO::ImageSpec& spec, const std::string& name) {
-  const bool sane = spec.width > 0 && spec.height > 0 && spec.depth <= 1 && spec.nchannels > 0;
-  if (!sane ||
-      static_cast<std::uint64_t>(spec.width) * static_cast<std::uint64_t>(spec.height) > kMaxTexels)
+void checkTexels(int width, int height, const std::string& name) {
+  if (width <= 0 || height <= 0 ||
+      static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height) > kMaxTexels)
     throw Error(Fault::Input,
                 fmt::format("{}: expected a picture of at most 16384 x 16384 texels, found {} x {}",
-                            name, spec.width, spec.height));
+                            name, width, height));
+}
+
+/// Before memory is asked for on a header's word. A few bytes of WebP may be any number of texels
+/// of one colour; of all others OpenEXR packs most closely.
+void checkSpec(const OIIO::ImageSpec& spec, const std::string& name, std::uint64_t fileBytes,
+               bool webp) {
+  checkTexels(spec.width, spec.depth <= 1 && spec.nchannels > 0 ? spec.height : 0, name);
+  checkPictureSize(name, spec.width, spec.height, spec.nchannels, fileBytes,
+                   webp ? std::numeric_limits<double>::infinity() : kExrSamplesPerByte);
+}
+
+/// OpenImageIO's own reader prints what it finds wrong.
+Picture texelsOfPng(std::span<const std::byte> bytes, const std::string& name, TextureUse use) {
+  const StoredPicture stored = decodePng(bytes, name);
+  const bool wide = stored.bytes.empty();
+  const Size size = wide ? stored.words.size() : stored.bytes.size();
+  const int channels = wide ? stored.words.channels() : stored.bytes.channels();
+  checkTexels(size.width, size.height, name);
+  Picture texels(size, channels);
+  const auto fill = [&](const auto& samples, float white) {
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+      const float value = static_cast<float>(samples[i]) / white;
+      const bool alpha = channels == 4 && i % 4 == 3;
+      texels.samples()[i] = use == TextureUse::Colour && !alpha ? linearFromDisplay(value) : value;
+    }
+  };
+  if (wide) fill(stored.words.samples(), 65535);
+  if (!wide) fill(stored.bytes.samples(), 255);
+  return texels;
 }
 
 /// Linear texels of 1, 3 or 4 channels.
@@ -86,7 +116,9 @@ Picture texelsOf(const OIIO::ImageSpec& spec, const std::vector<float>& samples,
 Texture textureFromBytes(std::span<const std::byte> bytes, const std::string& name,
                          TextureUse use) {
   const char* reader = readerOf(bytes, name);
-  if (reader == nullptr) throw damaged(name, "another kind of file");
+  if (reader == nullptr)
+    throw damaged(name, bytes.empty() ? "an empty file" : "another kind of file");
+  if (reader == "png"sv) return {name, texelsOfPng(bytes, name, use)};
   const std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::create(reader);
   if (!input) throw damaged(name, OIIO::geterror());
   // The proxy only reads, whatever its interface says.
@@ -98,7 +130,7 @@ Texture textureFromBytes(std::span<const std::byte> bytes, const std::string& na
   OIIO::ImageSpec spec, hints;
   hints.attribute("oiio:UnassociatedAlpha", 1);
   if (!input->open(name, spec, hints)) throw damaged(name, input->geterror());
-  checkSpec(spec, name);
+  checkSpec(spec, name, bytes.size(), reader == "webp"sv);
   std::vector<float> samples(spec.image_pixels() * static_cast<std::size_t>(spec.nchannels));
   if (!input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, samples.data()) ||
       input->has_error())

@@ -1,4 +1,4 @@
-// What a glTF file, text or binary, asks for beyond what is supported.
+// What a glTF file, text or binary, has, and asks for beyond what is supported.
 #include <cstdint>
 #include <span>
 
@@ -7,7 +7,7 @@
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   try {
-    illum::gltfRemarks(std::as_bytes(std::span(data, size)), "mesh.glb");
+    illum::gltfFeatures(std::as_bytes(std::span(data, size)), "mesh.glb");
   } catch (const illum::Error&) {
   }
   return 0;

@@ -1,0 +1,19 @@
+// The numbers of a glTF file, checked before assimp reads it: assimp 5.2 believes many of them, and
+// reads beside its buffers, leaves faces out or never ends where they are wrong.
+#pragma once
+
+#include <cstdint>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+
+namespace illum {
+
+/// `root`: the file's tree. `binaryBytes`: of a .glb's second chunk, 0 if there is none. Throws
+/// Error (Fault::Input) naming `source` and the field unless buffers are the chunk, data or files
+/// in the file's folder or below, views lie within buffers, accessors within views, and nodes are
+/// trees of bounded depth. Returns how many triangles the meshes of the scene that is shown have,
+/// each mesh counted once. Untrusted input is safe.
+std::uint64_t checkedGltfTriangles(const nlohmann::json& root, std::uint64_t binaryBytes,
+                                   const std::string& source);
+
+}  // namespace illum
