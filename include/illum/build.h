@@ -42,7 +42,7 @@ std::uint64_t captureMemoryBytes(std::uint64_t budgetBytes);
 struct BuildReport {
   std::uint64_t bytes = 0;
   double quantisationDecibels = 0;  ///< PSNR of quantisation alone, on screen
-  double leaveOneOutDecibels = 0;
+  double leaveOneOutDecibels = 0;   ///< at an unseen light; not a number if there is but one
   std::vector<std::string> choices;
   std::vector<std::string> warnings;
   bool stopped = false;

@@ -21,8 +21,8 @@ class PreparedLights {
   /// How often each texel's planes are gone through for lights at infinity: once where the response
   /// is linear, else once for each directional light and each direction of an environment.
   int passes() const;
-  /// The greatest error that an environment is left with, as PrepareOptions::environmentError: above
-  /// that one where 1024 directions do not suffice. 0 where the response is linear.
+  /// The greatest error that an environment is left with, as PrepareOptions::environmentError:
+  /// above that one where 1024 directions do not suffice. 0 where the response is linear.
   double environmentError() const;
 
  private:

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <limits>
 #include <memory>
 #include <vector>
 
@@ -77,6 +78,8 @@ Fit fitExact(std::span<const Direction> lights, const SampleStatistics& statisti
     const ChannelMoments moments = channelMoments(statistics);
     const Matrix gram = meanOverChannels(moments.gram, moments.lights);
     fit.leaveOneOutDecibels = meanDecibels(leftOutErrors(distinct, gram, rows));
+  } else {
+    fit.leaveOneOutDecibels = std::numeric_limits<double>::quiet_NaN();
   }
   return fit;
 }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -45,8 +46,10 @@ Fit fitBasis(const std::vector<DirectionalLight>& lights, const SampleStatistics
   std::vector<Direction> directions;
   for (const DirectionalLight& light : lights) directions.push_back(light.toLight);
   if (options.family == BasisFamily::Exact) return fitExact(directions, statistics, options);
-  return options.family == BasisFamily::Learned ? fitLearned(directions, statistics, options)
-                                                : fitSeparable(directions, statistics, options);
+  Fit fit = options.family == BasisFamily::Learned ? fitLearned(directions, statistics, options)
+                                                   : fitSeparable(directions, statistics, options);
+  if (lights.size() == 1) fit.leaveOneOutDecibels = std::numeric_limits<double>::quiet_NaN();
+  return fit;
 }
 
 }  // namespace illum

@@ -60,8 +60,9 @@ struct Fit {
   /// coefficients x coefficients, row-major: the basis' own coefficient j of channel c is
   /// sum_k mixing[j, k] (colourMatrix * planes 3k..3k+2)_c. Empty for learned.
   std::vector<double> mixing;
-  double leaveOneOutDecibels =
-      0;  ///< estimate of the mean PSNR at an unseen light, of the samples as given
+  /// Estimate of the mean PSNR at an unseen light, of the samples as given. Not a number where
+  /// there is but one light, which tells nothing of others.
+  double leaveOneOutDecibels = 0;
   std::vector<std::string>
       choices;  ///< "regularizer 3e-4 (leave-one-out)", for the user and provenance
   std::vector<std::string> warnings;

@@ -183,6 +183,11 @@ TEST_P(EveryFit, LightsFromBelowMakeItASphere) {
   EXPECT_LT(error / 20, 0.06);
 }
 
+TEST_P(EveryFit, OneLightTellsNothingOfOthers) {
+  const Fitted f = fitted({Direction::fromVector({0.2, 0.1, 0.9})}, of(GetParam(), 0));
+  EXPECT_TRUE(std::isnan(f.fit.leaveOneOutDecibels));
+}
+
 TEST(Fit, NamedCoefficientsComeBack) {
   const std::vector<Direction> lights = test::randomLights(60, 0.1);
   const Fitted f = fitted(lights, of(BasisFamily::SphericalHarmonics, 9));

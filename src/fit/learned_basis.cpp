@@ -120,7 +120,9 @@ Fit fitLearned(std::span<const Direction> lights, const SampleStatistics& statis
   Fit fit;
   fit.basisName = "learned";
   fit.leaveOneOutDecibels = meanDecibels(choice.errors);
-  fit.choices.push_back(modelText(choice.model, options.regularizer.has_value()));
+  const bool alone = lights.size() == 1;
+  fit.choices.push_back(alone ? "one light: the same from every direction"
+                              : modelText(choice.model, options.regularizer.has_value()));
   const int wanted =
       options.planes > 0 ? options.planes : choosePlaneCount(lights, moments, choice.model);
   PrincipalPlanes planes = principalPlanes(kriging, lights, moments, wanted);
@@ -130,8 +132,10 @@ Fit fitLearned(std::span<const Direction> lights, const SampleStatistics& statis
     fit.warnings.push_back(fmt::format("{} planes asked for, but {} lights give no more than {}",
                                        options.planes, lights.size(), count));
   }
-  fit.choices.push_back(
-      fmt::format("planes: {} ({})", count, options.planes > 0 ? "given" : "cross-validation"));
+  fit.choices.push_back(fmt::format("planes: {} ({})", count,
+                                    options.planes > 0 ? "given"
+                                    : alone            ? "all there are"
+                                                       : "cross-validation"));
   const double errorPerChannel = std::pow(10.0, -fit.leaveOneOutDecibels / 10);
   BasisTable table = tableOf(planes, kriging, moments.mean, lights, errorPerChannel);
   fit.choices.push_back(fmt::format("light table: {0} x {0} samples", table.resolution()));

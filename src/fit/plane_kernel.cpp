@@ -48,8 +48,7 @@ template <std::size_t kCount, class D>
 HWY_INLINE void sumGroup(D d, const PlaneProduct& product, std::size_t plane, std::size_t count,
                          const float* panel, float* out, std::size_t stride) {
   if constexpr (kCount > 1) {
-    if (count < kCount)
-      return sumGroup<kCount - 1>(d, product, plane, count, panel, out, stride);
+    if (count < kCount) return sumGroup<kCount - 1>(d, product, plane, count, panel, out, stride);
   }
   sumPanel<kCount>(d, product, plane, panel, out, stride);
 }

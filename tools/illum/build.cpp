@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <cstdio>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -102,8 +103,10 @@ struct BuildCommand {
       return;
     }
     for (const auto& choice : report.choices) fmt::print("  {}\n", choice);
-    fmt::print("{}: {}, expected quality at a new light {:.1f} dB\n", output,
-               textFromBytes(report.bytes), report.leaveOneOutDecibels);
+    fmt::print("{}: {}", output, textFromBytes(report.bytes));
+    if (!std::isnan(report.leaveOneOutDecibels))
+      fmt::print(", expected quality at a new light {:.1f} dB", report.leaveOneOutDecibels);
+    fmt::print("\n");
   }
 
   int run() {
