@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <set>
 
@@ -111,6 +112,35 @@ void checkUnique(const CaptureFile& capture) {
   }
 }
 
+LightFileEntry lightOf(const FieldPath& path, LightRecord& record) {
+  if (record.direction == Vector3()) {
+    throw FieldPath(&path, "direction").wrong("a direction", "the zero vector");
+  }
+  const auto [r, g, b] = record.intensity;
+  if (!(r > 0 && g > 0 && b > 0)) {
+    throw FieldPath(&path, "intensity")
+        .wrong("a positive intensity", fmt::format("{}, {}, {}", r, g, b));
+  }
+  return {std::move(record.name), {Direction::fromVector(record.direction), record.intensity}, 0};
+}
+
+// Whether every light has a picture of its own wherever a pattern tells lights apart by name.
+void checkLightNames(const CaptureFile& capture) {
+  std::set<std::string_view> names;
+  const bool unique = std::ranges::all_of(
+      capture.lights, [&](const LightFileEntry& light) { return names.insert(light.name).second; });
+  for (const CaptureFileView& view : capture.views) {
+    if (!view.files.empty() || capture.lights.size() == 1) continue;
+    if (view.photographs.find("{index}") != std::string::npos) continue;
+    if (unique && view.photographs.find("{light}") != std::string::npos) continue;
+    throw Error(
+        Fault::Input,
+        fmt::format("view '{}': expected a picture for each of {} lights, found '{}', which "
+                    "is one for several",
+                    view.view.name, capture.lights.size(), view.photographs));
+  }
+}
+
 CaptureFile readCapture(std::string_view text) {
   const Json root = jsonFromText(text);
   const FieldPath top;
@@ -123,9 +153,9 @@ CaptureFile readCapture(std::string_view text) {
   CaptureFile capture;
   capture.generator = std::move(file.generator);
   capture.rendered = file.rendered;
-  for (LightRecord& light : file.lights) {
-    capture.lights.push_back(
-        {std::move(light.name), {Direction::fromVector(light.direction), light.intensity}, 0});
+  const FieldPath lights(&top, "lights");
+  for (std::size_t i = 0; i < file.lights.size(); ++i) {
+    capture.lights.push_back(lightOf(FieldPath(&lights, i), file.lights[i]));
   }
   for (std::size_t i = 0; i < file.views.size(); ++i) {
     ViewEntry& entry = file.views[i];
@@ -179,6 +209,7 @@ void checkCaptureFile(const CaptureFile& capture) {
     checkView(FieldPath(&views, i), capture.views[i]);
   }
   checkUnique(capture);
+  checkLightNames(capture);
   if (capture.proxy.empty()) return;
   checkName(FieldPath(&top, "proxy"), capture.proxy);
   if (!capture.views.front().depth.empty()) {

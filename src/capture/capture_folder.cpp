@@ -31,6 +31,11 @@ constexpr const char* kProxyName = "proxy.obj";  // where a list of cameras name
 
 // A picture of one number a pixel: OpenEXR as it is, anything else as coverage out of 255.
 Picture readValues(const fs::path& file, Size expected) {
+  // A pipe would be waited for.
+  std::error_code missing;
+  if (fs::exists(file, missing) && !fs::is_regular_file(file, missing)) {
+    throw inputError(file, "a picture", "no ordinary file");
+  }
   Picture picture;
   const bool exr = file.extension() == ".exr";
   if (exr) {
@@ -83,10 +88,9 @@ CaptureFile withProxyBeside(const fs::path& folder, CaptureFile file) {
   return file;
 }
 
-// capture.json, or what stands in its place.
-CaptureFile readCameraList(const fs::path& folder, const PhotographOptions& options) {
-  const fs::path found = cameraListIn(folder);
-  const fs::path list = found.empty() ? folder / kCaptureFileName : found;
+// `list`: capture.json, or what stands in its place.
+CaptureFile readCameraList(const fs::path& folder, const fs::path& list,
+                           const PhotographOptions& options) {
   if (list.filename() == "images.txt") return withProxyBeside(folder, readColmap(folder, list));
   const std::string text = readTextFile(list, kMaxCaptureFileBytes);
   if (list.filename() == kCaptureFileName) return captureFileFromText(text, list.string());
@@ -102,9 +106,10 @@ CaptureFile readCameraList(const fs::path& folder, const PhotographOptions& opti
 class CaptureFolder final : public Capture {
  public:
   CaptureFolder(const fs::path& folder, const PhotographOptions& options, Progress& progress)
-      : folder_(folder), options_(options) {
+      : folder_(folder), list_(cameraListIn(folder)), options_(options) {
     if (options_.memoryBytes == 0) options_.memoryBytes = machineMemoryBytes() / 4;
-    file_ = readCameraList(folder, options_);
+    if (list_.empty()) list_ = folder / kCaptureFileName;
+    file_ = readCameraList(folder, list_, options_);
     if (!file_.proxy.empty()) {
       const fs::path proxy = folder / file_.proxy;
       proxy_ = proxyFromObj(readTextFile(proxy, kMaxCaptureFileBytes), proxy.string());
@@ -147,7 +152,9 @@ class CaptureFolder final : public Capture {
   std::shared_ptr<const OpenView> openView(int group, Progress& progress) const;
   std::shared_ptr<const OpenView> view(int group) const;
 
-  fs::path folder_;
+  fs::path pictureUnder(const CaptureFileView& view, std::size_t light) const;
+
+  fs::path folder_, list_;
   PhotographOptions options_;
   CaptureFile file_;
   std::optional<ProxyMesh> proxy_;
@@ -160,6 +167,15 @@ class CaptureFolder final : public Capture {
   mutable std::list<std::shared_ptr<const OpenView>> open_;  // the latest used first
 };
 
+// Relative to the folder.
+fs::path CaptureFolder::pictureUnder(const CaptureFileView& view, std::size_t light) const {
+  try {
+    return pictureOf(view, file_.lights[light], static_cast<int>(light));
+  } catch (const Error& error) {
+    throw Error(error.fault(), fmt::format("{}: {}", list_.string(), error.what()));
+  }
+}
+
 std::shared_ptr<const OpenView> CaptureFolder::openView(int group, Progress& progress) const {
   const CaptureFileView& entry = file_.views[static_cast<std::size_t>(group)];
   const Size size = sizeOf(entry.view.geometry);
@@ -171,7 +187,7 @@ std::shared_ptr<const OpenView> CaptureFolder::openView(int group, Progress& pro
 
   PhotographList list{folder_, {}, file_.lights};
   for (std::size_t i = 0; i < file_.lights.size(); ++i) {
-    list.files.push_back(folder_ / pictureOf(entry, file_.lights[i], static_cast<int>(i)));
+    list.files.push_back(folder_ / pictureUnder(entry, i));
   }
   const fs::path first = list.files.front();
   PhotographOptions options = options_;
@@ -198,7 +214,7 @@ std::shared_ptr<const OpenView> CaptureFolder::view(int group) const {
     if (static_cast<int>(open_.size()) >= mostOpen_) open_.pop_back();
     auto opened = openView(group, silent_);
     if (opened->photographs->transfer() != transfer_) {
-      throw inputError(folder_ / kCaptureFileName, "all views linear or all display-referred",
+      throw inputError(list_, "all views linear or all display-referred",
                        fmt::format("'{}' unlike '{}'", views_[static_cast<std::size_t>(group)].name,
                                    views_.front().name));
     }
@@ -221,7 +237,7 @@ std::string CaptureFolder::fingerprint() const {
   };
   for (const CaptureFileView& view : file_.views) {
     for (std::size_t i = 0; i < file_.lights.size(); ++i) {
-      add(pictureOf(view, file_.lights[i], static_cast<int>(i)));
+      add(pictureUnder(view, i));
     }
     if (!view.mask.empty()) add(view.mask);
     if (!view.depth.empty()) add(view.depth);

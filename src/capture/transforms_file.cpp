@@ -122,8 +122,9 @@ class FrameReader {
     if (!x && !y) throw path_.wrong("'fl_x' or 'camera_angle_x'", "none");
     camera.focalX = x.value_or(*(x ? x : y));
     camera.focalY = y.value_or(camera.focalX);
-    if (!(camera.focalX > 0 && camera.focalY > 0)) {
-      throw path_.wrong("focal lengths above 0",
+    const auto isLength = [](double value) { return value > 0 && value <= kMaxCoordinate; };
+    if (!isLength(camera.focalX) || !isLength(camera.focalY)) {
+      throw path_.wrong(fmt::format("focal lengths above 0 and at most {}", kMaxCoordinate),
                         fmt::format("{} and {}", camera.focalX, camera.focalY));
     }
     return camera;
@@ -255,6 +256,13 @@ CaptureFile captureUnderLights(const std::vector<Frame>& frames) {
     auto& files = capture.views[view->second].files;
     const std::size_t light = lightOf.at(numbersOf(*frame.light));
     files.resize(std::max(files.size(), light + 1));
+    if (!files[light].empty()) {
+      throw Error(
+          Fault::Input,
+          fmt::format("field 'frames': expected one picture of a camera under a light, found "
+                      "'{}' and '{}'",
+                      files[light], frame.file));
+    }
     files[light] = frame.file;
   }
   for (const CaptureFileView& view : capture.views) {

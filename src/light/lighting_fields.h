@@ -79,8 +79,8 @@ void describe(Visitor& v, SpotLight& light) {
 template <typename Visitor>
 void describe(Visitor& v, RectangleLight& light) {
   point(v, "centre", light.centre);
-  point(v, "halfWidth", light.halfWidth);
-  point(v, "halfHeight", light.halfHeight);
+  point(v, optional("halfWidth"), light.halfWidth);
+  point(v, optional("halfHeight"), light.halfHeight);
   intensity(v, light.intensity);
   v.integer(optional("across"), light.across, 1, kMaxSamplesAcross);
   v.integer(optional("down"), light.down, 1, kMaxSamplesAcross);
