@@ -120,12 +120,13 @@ void readBlock(const Capture& capture, const Place& place, std::span<const int> 
 }  // namespace
 
 std::size_t pilotPixels(const Capture& capture, std::uint64_t allPixels, int lights,
-                        std::uint64_t memoryBytes) {
+                        std::size_t pilots, std::uint64_t memoryBytes) {
   const double rows = 3.0 * lights;
   const double byCost = kMaxMomentOperations / (rows * rows);
   // Beside the samples stand the planes that are tried on them.
   const double byMemory = static_cast<double>(memoryBytes) / (2.0 * sizeof(float) * rows);
-  double pixels = std::min({static_cast<double>(kMaxPixels), byCost, byMemory});
+  double pixels =
+      std::min({static_cast<double>(kMaxPixels), byCost, byMemory}) / static_cast<double>(pilots);
   if (capture.isRendered()) {
     const double share = kRenderedShare * static_cast<double>(allPixels);
     pixels = std::min(pixels, std::max(kLeastRendered, share));

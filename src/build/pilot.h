@@ -42,7 +42,7 @@ Pilot drawPilot(const Capture& capture, std::span<const int> groups, std::span<c
 /// How many pixels are worth it: bounded by the cost of the second moments and by memory; where
 /// pixels are rendered to be looked at, also by a share of the `pixels` that there are.
 std::size_t pilotPixels(const Capture& capture, std::uint64_t pixels, int lights,
-                        std::uint64_t memoryBytes);
+                        std::size_t pilots, std::uint64_t memoryBytes);
 
 /// Mean and second moments of the samples over the pilot's pixels, summed in double.
 SampleStatistics statisticsOf(const Pilot& pilot);

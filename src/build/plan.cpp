@@ -140,11 +140,11 @@ Plan planObject(const Capture& capture, const LightChoice& lights, const BuildOp
     PlannedBasis& basis = plan.bases.emplace_back();
     basis.frame = frame;
     basis.directions = frame.turned(lights.directions);
-    const Pilot pilot = drawPilot(capture, frame.groups, lights.used,
-                                  pilotPixels(capture, pixelsOf(capture, frame),
-                                              static_cast<int>(lights.used.size()), memoryBytes) /
-                                      frames.size(),
-                                  progress);
+    const Pilot pilot =
+        drawPilot(capture, frame.groups, lights.used,
+                  pilotPixels(capture, pixelsOf(capture, frame),
+                              static_cast<int>(lights.used.size()), frames.size(), memoryBytes),
+                  progress);
     progress.begin("choosing the light basis", 1);
     basis.fit = fitBasis(basis.directions, statisticsOf(pilot), fitOptions);
     if (exact)
