@@ -39,6 +39,12 @@ std::vector<float> cut(std::span<const float> values, Size row, const Rectangle&
   return out;
 }
 
+// Of a sample: libaom's frames and side data; a picture and its file. Estimates that the tests of
+// --max-memory hold, not measurements.
+std::uint64_t coderBytes(const CodingEntry& coding) {
+  return coding.coding == Coding::Avif ? 24 : 8;
+}
+
 }  // namespace
 
 void TileWriter::write(const PlaneRow& row) {
@@ -98,9 +104,8 @@ std::uint64_t tileCodingBytes(const Manifest& manifest, std::span<const int> pla
     const std::uint64_t pixels = manifest.grid(g).tileRectangle(0, 0, 0).pixels();
     const auto planes = static_cast<std::uint64_t>(planesOfBases[basis]);
     const auto stored = static_cast<std::uint64_t>(manifest.coding(g).planes());
-    // Planes cut out as floats, codes, and libaom's frames and side data. The 24 bytes a sample are
-    // an estimate that the tests of --max-memory hold, not a measurement of libaom.
-    most = std::max(most, pixels * (4 * planes + (2 + 24) * stored));
+    // Planes cut out as floats, codes, and what the coder has.
+    most = std::max(most, pixels * (4 * planes + (2 + coderBytes(manifest.coding(g))) * stored));
   }
   return most;
 }

@@ -12,6 +12,7 @@
 
 #include "build/depth_range.h"
 #include "build/tile_writer.h"
+#include "convert/memory_plan.h"
 #include "convert/new_view.h"
 #include "convert/view_plan.h"
 #include "core/memory.h"
@@ -62,8 +63,8 @@ class Conversion {
   void copyEntry(const std::string& name) { writer_.add(name, source_.entry(name)); }
   void copyView(int stored, int group);
   void makeView(int group, LevelPyramid& pyramid, ConvertReport& report);
-  ObjectViews& viewsOf(const std::vector<int>& groups);
-  int tilesAtOnce() const;
+  NewViewMaker& makerOf(const std::vector<int>& groups);
+  void planMemory();
 
   const Object& source_;
   const Manifest& old_;
@@ -75,8 +76,8 @@ class Conversion {
   Manifest manifest_;
   EncodeSettings settings_;
   bool recodes_ = false;
-  std::vector<int> slabGroups_;  // of slabViews_
-  std::unique_ptr<ObjectViews> slabViews_;
+  ConversionMemory memory_;
+  std::unique_ptr<NewViewMaker> maker_;  // of the slab at work
 };
 
 void Conversion::plan() {
@@ -109,27 +110,27 @@ void Conversion::plan() {
                     options_.useDepth && source_.hasDepth() ? "by depth" : "on the window"));
   }
   checkConsistency(manifest_);
+  planMemory();
 }
 
-// As many as fit a quarter of the memory; half of it is for views.
-int Conversion::tilesAtOnce() const {
+// What only copies entries holds but one at a time.
+void Conversion::planMemory() {
+  const bool newViews = std::ranges::any_of(views_, [](const auto& v) { return !v.stored; });
+  if (!newViews && !recodes_) return;
   std::vector<int> planes;
-  for (int b = 0; b < static_cast<int>(manifest_.bases.size()); ++b) {
-    int most = 1;
-    for (const int function : manifest_.bases[static_cast<std::size_t>(b)].coding.functions)
-      most = std::max(most, function + 1);
-    planes.push_back(most);
+  for (const BasisEntry& basis : manifest_.bases) {
+    const auto& functions = basis.coding.functions;
+    planes.push_back(functions.empty() ? 1 : 1 + *std::ranges::max_element(functions));
   }
-  const std::uint64_t each = std::max<std::uint64_t>(1, tileCodingBytes(manifest_, planes));
-  const auto threads = static_cast<std::uint64_t>(tbb::this_task_arena::max_concurrency());
-  return static_cast<int>(std::clamp<std::uint64_t>(memoryBytes_ / 4 / each, 1, threads));
+  memory_ = planConversion(manifest_, planes, newViews, memoryBytes_,
+                           tbb::this_task_arena::max_concurrency());
 }
 
 void Conversion::copyView(int stored, int group) {
   const TileGrid grid = old_.grid(stored);
   for (int level = 0; level < grid.levels(); ++level) {
     const int across = grid.tilesAcross(level);
-    tbb::task_arena arena(tilesAtOnce());
+    tbb::task_arena arena(memory_.tilesCoded);
     arena.execute([&] {
       tbb::parallel_for(0, across * grid.tilesDown(level), [&](int i) {
         const int x = i % across, y = i / across;
@@ -152,20 +153,19 @@ void Conversion::copyView(int stored, int group) {
   }
 }
 
-ObjectViews& Conversion::viewsOf(const std::vector<int>& groups) {
-  if (!slabViews_ || slabGroups_ != groups) {
-    slabGroups_ = groups;
-    slabViews_ = std::make_unique<ObjectViews>(planeViews(source_, groups, memoryBytes_ / 2));
+NewViewMaker& Conversion::makerOf(const std::vector<int>& groups) {
+  if (!maker_ || maker_->groups() != groups) {
+    maker_.reset();
+    maker_ = std::make_unique<NewViewMaker>(source_, groups, memory_);
   }
-  return *slabViews_;
+  return *maker_;
 }
 
 void Conversion::makeView(int group, LevelPyramid& pyramid, ConvertReport& report) {
   const PlannedView& planned = views_[static_cast<std::size_t>(group)];
   SynthesisOptions how;
   how.useDepth = options_.useDepth;
-  ObjectViews& views = viewsOf(planned.sources);
-  NewView view = synthesisedPlanes(views, planned.entry.view.geometry, how);
+  const NewView view = makerOf(planned.sources).make(planned.entry.view.geometry, how);
   auto& depth = manifest_.groups[static_cast<std::size_t>(group)].depth;
   depth.reset();
   if (!view.depth.empty()) {
@@ -186,7 +186,7 @@ void Conversion::makeView(int group, LevelPyramid& pyramid, ConvertReport& repor
 
 bool Conversion::run(ConvertReport& report) {
   progress_.begin("converting", views_.size());
-  TileWriter tiles(manifest_, settings_, tilesAtOnce(), writer_, progress_);
+  TileWriter tiles(manifest_, settings_, memory_.tilesCoded, writer_, progress_);
   LevelPyramid pyramid(manifest_, [&](const PlaneRow& row) { tiles.write(row); });
   for (std::size_t g = 0; g < views_.size(); ++g) {
     const auto group = static_cast<int>(g);

@@ -5,18 +5,12 @@
 #include <vector>
 
 #include "build/plane_row.h"
-#include "convert/view_plan.h"
+#include "convert/memory_plan.h"
 #include "illum/lumigraph.h"
 #include "illum/object.h"
 #include "lumigraph/object_views.h"
 
 namespace illum {
-
-/// The views of one slab, each as a picture of its planes and its coverage, decoded when they are
-/// asked for; the latest used are kept within `memoryBytes`. Planes are values of the basis'
-/// functions, premultiplied by coverage.
-ObjectViews planeViews(const Object& object, const std::vector<int>& groups,
-                       std::uint64_t memoryBytes);
 
 /// All planes of a view, as PlaneRow has those of a row of tiles.
 struct NewView {
@@ -28,7 +22,25 @@ struct NewView {
   PlaneRow tileRow(const Manifest& manifest, int group, int row) const;
 };
 
-NewView synthesisedPlanes(ObjectViews& views, const ViewGeometry& target,
-                          const SynthesisOptions& options);
+/// Makes views of the views of one slab, each a picture of some of its planes and its coverage,
+/// decoded when it is asked for. Planes are values of the basis' functions, premultiplied by
+/// coverage.
+class NewViewMaker {
+ public:
+  NewViewMaker(const Object& object, std::vector<int> groups, const ConversionMemory& memory);
+
+  const std::vector<int>& groups() const { return groups_; }
+  NewView make(const ViewGeometry& target, const SynthesisOptions& options);
+
+ private:
+  void takePlanes(int first);
+  void addPart(const SynthesisedView& seen, int first, NewView& view) const;
+
+  Object object_;
+  std::vector<int> groups_;
+  int planes_, planesAtOnce_, tilesDecoded_;
+  int first_ = -1;  ///< of the planes that views_ shows
+  ObjectViews views_;
+};
 
 }  // namespace illum
