@@ -9,9 +9,9 @@
 #include <utility>
 
 #include "capture/lanes.h"
-#include "core/page_buffer.h"
 #include "capture/progress_stage.h"
 #include "capture/scratch_stack.h"
+#include "core/page_buffer.h"
 
 namespace illum {
 namespace {
