@@ -68,11 +68,16 @@ class OrdinaryFiles final : public Assimp::IOSystem {
     const std::string file = found(name);
     if (std::string_view(mode).find_first_of("wa+") != std::string_view::npos || file.empty())
       return nullptr;
-    return new HeldStream(readFile(file, kMaxFileBytes));  // assimp closes it by Close
+    open_.push_back(std::make_unique<HeldStream>(readFile(file, kMaxFileBytes)));
+    return open_.back().get();
   }
-  void Close(Assimp::IOStream* stream) override { delete stream; }
+  void Close(Assimp::IOStream* stream) override {
+    std::erase_if(open_, [&](const auto& held) { return held.get() == stream; });
+  }
 
  private:
+  std::vector<std::unique_ptr<HeldStream>> open_;  // assimp leaves files open where it gives up
+
   /// Empty: there is none.
   static std::string found(const std::string& name) {
     std::error_code ignored;
