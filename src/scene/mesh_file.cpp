@@ -15,6 +15,7 @@
 #include <iterator>
 #include <memory>
 #include <numbers>
+#include <set>
 #include <utility>
 
 #include "core/files.h"
@@ -47,15 +48,23 @@ bool isGltf(const fs::path& file) {
 
 // --- files ---
 
+class HeldStream;
+using OpenStreams = std::set<HeldStream*>;
+
 /// A whole file in memory that assimp reads from.
 class HeldStream final : public Assimp::MemoryIOStream {
  public:
-  explicit HeldStream(std::vector<std::byte> bytes)
+  HeldStream(std::vector<std::byte> bytes, std::shared_ptr<OpenStreams> open)
       : MemoryIOStream(reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size(), false),
-        bytes_(std::move(bytes)) {}
+        bytes_(std::move(bytes)),
+        open_(std::move(open)) {
+    open_->insert(this);
+  }
+  ~HeldStream() override { open_->erase(this); }
 
  private:
   std::vector<std::byte> bytes_;  // moving a vector leaves its memory where it is
+  std::shared_ptr<OpenStreams> open_;
 };
 
 /// Opens ordinary files alone, for reading alone, up to a limit. Names may be escaped as in glTF,
@@ -68,15 +77,16 @@ class OrdinaryFiles final : public Assimp::IOSystem {
     const std::string file = found(name);
     if (std::string_view(mode).find_first_of("wa+") != std::string_view::npos || file.empty())
       return nullptr;
-    open_.push_back(std::make_unique<HeldStream>(readFile(file, kMaxFileBytes)));
-    return open_.back().get();
+    return new HeldStream(readFile(file, kMaxFileBytes), open_);
   }
-  void Close(Assimp::IOStream* stream) override {
-    std::erase_if(open_, [&](const auto& held) { return held.get() == stream; });
+  void Close(Assimp::IOStream* stream) override { delete stream; }
+  /// assimp closes some streams, deletes others, and leaves some where it gives up.
+  ~OrdinaryFiles() override {
+    while (!open_->empty()) delete *open_->begin();
   }
 
  private:
-  std::vector<std::unique_ptr<HeldStream>> open_;  // assimp leaves files open where it gives up
+  std::shared_ptr<OpenStreams> open_ = std::make_shared<OpenStreams>();
 
   /// Empty: there is none.
   static std::string found(const std::string& name) {
