@@ -1,6 +1,7 @@
 #include "render/ray_tree.h"
 
 #include <embree3/rtcore.h>
+#include <tbb/task_arena.h>
 
 #include <atomic>
 #include <cstddef>
@@ -141,8 +142,8 @@ struct RayTree::State {
   RTCScene scene = nullptr;
 
   State() {
-    // One thread builds the tree: the same tree on every machine of a kind.
-    device = rtcNewDevice("threads=1");
+    // Not "threads=1", which would hold the whole process to one thread while the device lives.
+    device = rtcNewDevice(nullptr);
     if (device == nullptr) throw Error(Fault::Machine, "the ray tracer cannot be started");
     rtcSetDeviceMemoryMonitorFunction(device, countBytes, &bytes);
     scene = rtcNewScene(device);
@@ -185,7 +186,8 @@ RayTree::RayTree(const Scene& scene, const SurfaceFilter& filter, const Filtered
     state_->attach(curveGeometry(state_->device, scene.curves[c], segments),
                    scene.meshes.size() + c);
   }
-  rtcCommitScene(state_->scene);
+  // One thread builds the tree: the same tree on every machine of a kind.
+  tbb::task_arena(1).execute([&] { rtcJoinCommitScene(state_->scene); });
   if (rtcGetDeviceError(state_->device) != RTC_ERROR_NONE) {
     throw Error(Fault::Machine, "the scene does not fit into memory");
   }
