@@ -228,40 +228,81 @@ View cubeView(const nlohmann::json& entry, int shrink, Size size) {
   return {entry.at("file").get<std::string>(), pinholeFromProjection(matrix, size)};
 }
 
+// The mesh was made from another reconstruction of the photographs than their poses: it lies 3.5
+// degrees and 2 % of scale away from the points that the poses and the tracks of images.txt give.
+// The similarity that lays it upon them, by iterated closest points (Chen and Medioni 1992) between
+// 1500 tracks and the mesh, median distance afterwards 0.03 (before: 0.74; the cube's edge is about
+// 5).
+constexpr std::array kMovedMesh{1.02136878,  -0.01073355, 0.00792374,  -0.62266327,
+                                0.01119689,  1.01949502,  -0.06226329, 0.11368243,
+                                -0.00725426, 0.06234483,  1.01952571,  -0.47158412};
+
+ProxyMesh moved(ProxyMesh mesh) {
+  for (Vector3& p : mesh.positions) {
+    const auto row = [&](std::size_t r) {
+      const double* m = &kMovedMesh[4 * r];
+      return m[0] * p.x + m[1] * p.y + m[2] * p.z + m[3];
+    };
+    p = {row(0), row(1), row(2)};
+  }
+  return mesh;
+}
+
+// The photographs' heights differ by a pixel or two, as taking their distortion out left them.
+Picture cropped(const Picture& picture, Size size) {
+  Picture part(size, picture.channels());
+  for (int y = 0; y < std::min(size.height, picture.height()); ++y) {
+    for (int x = 0; x < std::min(size.width, picture.width()); ++x) {
+      for (int c = 0; c < picture.channels(); ++c) part.at(x, y, c) = picture.at(x, y, c);
+    }
+  }
+  return part;
+}
+
 void predictCube(const Arguments& arguments) {
   const auto poses = nlohmann::json::parse(readTextFile(arguments.folder / "poses.json", 1 << 20));
-  const ProxyMesh mesh =
+  const ProxyMesh given =
       proxyFromObj(readTextFile(arguments.folder / "proxy.obj", 1 << 26), "proxy.obj");
-  std::vector<SourceView> all;
+  const ProxyMesh fitting = moved(given);
+  std::vector<SourceView> onGiven, onFitting;
   for (const auto& entry : poses.at("views")) {
     Picture picture = readShrunk(arguments.folder / "images" / entry.at("file").get<std::string>(),
                                  arguments.shrink);
     const View view = cubeView(entry, arguments.shrink, picture.size());
-    Picture depth = depthOfProxy(mesh, view.geometry);
-    all.push_back({view, std::move(picture), std::move(depth)});
+    onGiven.push_back({view, picture, depthOfProxy(given, view.geometry)});
+    onFitting.push_back({view, std::move(picture), depthOfProxy(fitting, view.geometry)});
   }
+  const auto without = [](std::vector<SourceView> views, std::size_t i) {
+    views.erase(views.begin() + static_cast<std::ptrdiff_t>(i));
+    return views;
+  };
+  const auto eyeOf = [](const View& view) {
+    return std::get<PinholeCamera>(view.geometry).objectFromCamera.translation;
+  };
   Table table;
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    const SourceView truth = all[i];
-    std::vector<SourceView> others = all;
-    others.erase(others.begin() + static_cast<std::ptrdiff_t>(i));
-    const auto source = viewSource(others);
-    const auto eyeOf = [](const View& view) {
-      return std::get<PinholeCamera>(view.geometry).objectFromCamera.translation;
-    };
+  for (std::size_t i = 0; i < onGiven.size(); ++i) {
+    const SourceView& truth = onGiven[i];
+    const std::vector<SourceView> others = without(onGiven, i), fitted = without(onFitting, i);
+    const auto asGiven = viewSource(others), asFitting = viewSource(fitted);
     const auto nearest = std::ranges::min_element(others, {}, [&](const SourceView& other) {
       return length(eyeOf(other.view) - eyeOf(truth.view));
     });
     SynthesisOptions one, plain;
     one.blendedViews = 1;
     plain.useDepth = false;
-    const std::vector<Picture> sheet{
-        nearest->picture, synthesise(*source, truth.view.geometry, plain).picture,
-        synthesise(*source, truth.view.geometry, one).picture,
-        synthesise(*source, truth.view.geometry).picture, truth.picture};
-    const std::array ways{"nearest view", "blending of 4 on the plane that cameras look at",
-                          "one view on the mesh", "blending of 4 on the mesh"};
-    for (std::size_t w = 0; w < ways.size(); ++w) table.add(ways[w], sheet[w], truth.picture);
+    std::vector<Picture> sheet;
+    const auto judge = [&](const char* way, const Picture& found) {
+      table.add(way, found, truth.picture);
+      sheet.push_back(found);
+    };
+    const ViewGeometry& target = truth.view.geometry;
+    judge("nearest view", cropped(nearest->picture, truth.picture.size()));
+    judge("blending of 4 on the plane that cameras look at",
+          synthesise(*asGiven, target, plain).picture);
+    judge("blending of 4 on the mesh as it is", synthesise(*asGiven, target).picture);
+    judge("one view on the mesh where it belongs", synthesise(*asFitting, target, one).picture);
+    judge("blending of 4 on the mesh where it belongs", synthesise(*asFitting, target).picture);
+    sheet.push_back(truth.picture);
     if (!arguments.pictures.empty()) {
       bench::writeSheet(arguments.pictures / fmt::format("cube_{}.png", i), sheet);
     }

@@ -62,6 +62,7 @@ function(illum_module)
     add_executable(illum_${M_NAME}_test ${M_TESTS})
     illum_link_modules(illum_${M_NAME}_test ${M_NAME})
     target_link_libraries(illum_${M_NAME}_test PRIVATE GTest::gmock GTest::gtest_main)
+    target_compile_options(illum_${M_NAME}_test PRIVATE ${ILLUM_TEST_FLAGS})
     target_compile_definitions(illum_${M_NAME}_test PRIVATE ILLUM_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
     gtest_discover_tests(illum_${M_NAME}_test TEST_PREFIX ${M_NAME}. DISCOVERY_TIMEOUT 60
                          PROPERTIES LABELS unit)

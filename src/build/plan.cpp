@@ -28,8 +28,9 @@ Curve curveFromName(const std::string& name) {
               fmt::format("--curve: expected linear or signedSqrt, found \"{}\"", name));
 }
 
-FitOptions fitOptionsFrom(const BuildOptions& options) {
+FitOptions fitOptionsFrom(const BuildOptions& options, Response response) {
   FitOptions fit;
+  fit.displayReferred = response == Response::Display;
   fit.family = familyFromName(options.basis);
   fit.coefficients = options.coefficients;
   fit.planes = options.planes;
@@ -123,7 +124,7 @@ double Plan::leaveOneOutDecibels() const {
 
 Plan planObject(const Capture& capture, const LightChoice& lights, const BuildOptions& options,
                 Response response, std::uint64_t memoryBytes, Progress& progress) {
-  const FitOptions fitOptions = fitOptionsFrom(options);
+  const FitOptions fitOptions = fitOptionsFrom(options, response);
   const QuantiserRequest request = quantiserRequestFrom(options);
   const std::vector<TurnedFrame> frames = framesOf(capture.views());
   if (frames.size() > static_cast<std::size_t>(kMaxBases)) {

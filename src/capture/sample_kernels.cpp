@@ -1,7 +1,6 @@
 #include "capture/sample_kernels.h"
 
-#include <algorithm>
-#include <bit>
+#include <array>
 #include <cstring>
 
 #undef HWY_TARGET_INCLUDE
@@ -16,15 +15,15 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 constexpr float kWhiteByte = 255, kWhiteWord = 65535;
 
-// n / white, correctly rounded: one Newton step corrects the product with the rounded reciprocal
-// (Markstein 1990, "Computation of elementary functions on the IBM RISC System/6000", theorem 8.2).
-// Without a fused multiply-add the step itself would be rounded, so there we divide.
+// n / white, correctly rounded for every n that there is (sample_rows_test tries them all): the
+// reciprocal in two parts, as one float alone would be a unit off in the last place for half the
+// bytes. Without a fused multiply-add the sum itself would be rounded twice, so there we divide.
 template <class D, class V>
 HWY_INLINE V quotient(D d, V n, float white) {
 #if HWY_NATIVE_FMA
-  const auto reciprocal = hn::Set(d, 1 / white);
-  const auto q = hn::Mul(n, reciprocal);
-  return hn::MulAdd(hn::NegMulAdd(q, hn::Set(d, white), n), reciprocal, q);
+  const float high = 1 / white;
+  const auto low = static_cast<float>(1 / static_cast<double>(white) - static_cast<double>(high));
+  return hn::MulAdd(n, hn::Set(d, high), hn::Mul(n, hn::Set(d, low)));
 #else
   return hn::Div(n, hn::Set(d, white));
 #endif
@@ -55,26 +54,35 @@ inline float oneFloat(float sample) {
   return sample;
 }
 
+// Whole vectors of samples are taken apart, for that costs the same however short they are; then
+// each becomes several vectors of floats.
 template <typename T>
 void planar(const T* HWY_RESTRICT samples, int channels, std::size_t count, float* HWY_RESTRICT r,
             float* HWY_RESTRICT g, float* HWY_RESTRICT b) {
   const hn::ScalableTag<float> d;
-  const hn::Rebind<T, decltype(d)> stored;
-  const std::size_t lanes = hn::Lanes(d);
+  const hn::ScalableTag<T> whole;
+  const hn::Rebind<T, decltype(d)> part;
+  const std::size_t lanes = hn::Lanes(d), run = hn::Lanes(whole);
   const auto stride = static_cast<std::size_t>(channels);
+  HWY_ALIGN std::array<std::array<T, HWY_MAX_BYTES / sizeof(T)>, 3> apart;
+  const std::array<float*, 3> out{r, g, b};
   std::size_t i = 0;
-  for (; i + lanes <= count; i += lanes) {
-    auto first = hn::Zero(stored), second = first, third = first, fourth = first;
+  for (; i + run <= count; i += run) {
+    auto first = hn::Zero(whole), second = first, third = first, fourth = first;
     if (channels == 1) {
-      first = second = third = hn::LoadU(stored, samples + i);
+      first = second = third = hn::LoadU(whole, samples + i);
     } else if (channels == 3) {
-      hn::LoadInterleaved3(stored, samples + i * stride, first, second, third);
+      hn::LoadInterleaved3(whole, samples + i * stride, first, second, third);
     } else {
-      hn::LoadInterleaved4(stored, samples + i * stride, first, second, third, fourth);
+      hn::LoadInterleaved4(whole, samples + i * stride, first, second, third, fourth);
     }
-    hn::StoreU(floats(d, first), d, r + i);
-    hn::StoreU(floats(d, second), d, g + i);
-    hn::StoreU(floats(d, third), d, b + i);
+    hn::Store(first, whole, apart[0].data());
+    hn::Store(second, whole, apart[1].data());
+    hn::Store(third, whole, apart[2].data());
+    for (std::size_t c = 0; c < 3; ++c) {
+      for (std::size_t at = 0; at < run; at += lanes)
+        hn::StoreU(floats(d, hn::LoadU(part, apart[c].data() + at)), d, out[c] + i + at);
+    }
   }
   for (; i < count; ++i) {
     const T* pixel = samples + i * stride;

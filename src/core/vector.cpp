@@ -19,7 +19,11 @@ Vector3 cross(Vector3 a, Vector3 b) {
 }
 
 double length(Vector3 a) {
-  return std::hypot(a.x, a.y, a.z);
+  // hypot divides three times to keep squares clear of overflow and of denormals: only where need
+  // be.
+  constexpr double kLeast = 1e-280, kGreatest = 1e280;
+  const double squared = dot(a, a);
+  return squared > kLeast && squared < kGreatest ? std::sqrt(squared) : std::hypot(a.x, a.y, a.z);
 }
 
 Direction Direction::fromVector(Vector3 v) {

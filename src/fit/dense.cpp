@@ -86,4 +86,8 @@ EigenPairs largestEigenPairs(const Matrix& symmetric, int count) {
   return pairs;
 }
 
+Matrix solveSymmetric(const Matrix& a, const Matrix& b) {
+  return a.ldlt().solve(b);
+}
+
 }  // namespace illum

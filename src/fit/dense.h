@@ -45,4 +45,8 @@ struct EigenPairs {
 };
 EigenPairs largestEigenPairs(const Matrix& symmetric, int count);
 
+/// X of A X = B, where A is symmetric and positive definite (LDL^T, robust where it is nearly
+/// singular). Here, so that Eigen's solver is compiled once.
+Matrix solveSymmetric(const Matrix& a, const Matrix& b);
+
 }  // namespace illum

@@ -25,6 +25,7 @@ struct FitOptions {
   /// nugget).
   std::optional<double> regularizer;
   bool projection = false;  ///< quadrature of the integral in section 4.1 instead of least squares
+  bool displayReferred = false;  ///< the samples are sRGB-encoded, not proportional to light
 };
 
 /// Second moments of the samples over (a fair selection of) pixels: everything that choosing needs.

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <random>
 
 #include "fit/bases/light_basis_family.h"
 #include "fit/light_weights.h"
@@ -70,6 +71,34 @@ FitOptions of(BasisFamily family, int coefficients = 0) {
   options.family = family;
   options.coefficients = coefficients;
   return options;
+}
+
+// Lights within 45 degrees of the axis say nothing of lights at the horizon. Noise in the
+// photographs must not become light there.
+TEST(FitLearned, BeyondANarrowCapLightsFadeAsTheCosine) {
+  const std::vector<Direction> lights = test::randomLights(90, std::cos(0.7));
+  std::vector<float> samples = test::shinySamples(lights, kPixels);
+  std::mt19937 random(3);
+  std::normal_distribution<float> noise(0, 0.02F);
+  for (float& s : samples) s += noise(random);
+  FitOptions options;
+  options.regularizer = 1e-3;
+  const Fitted linear = fitted(lights, options, samples);
+  options.displayReferred = true;
+  const Fitted display = fitted(lights, options, samples);
+  constexpr double kEdge = 1.0, kFar = 1.45;  // radians, both beyond a spacing from the last light
+  for (const double phi : {-3.0, -1.0, 0.5, 2.5}) {
+    const Direction edge = Direction::fromAngles(kEdge, phi),
+                    far = Direction::fromAngles(kFar, phi);
+    const double share = std::cos(kFar) / std::cos(kEdge);
+    const Rows expected = static_cast<float>(share) * relit(linear, edge);
+    EXPECT_LT(rmsDifference(relit(linear, far), expected), 0.01) << phi;
+    const Rows encoded = static_cast<float>(std::pow(share, 1 / 2.2)) * relit(display, edge);
+    EXPECT_LT(rmsDifference(relit(display, far), encoded), 0.01) << phi;
+    // Between the lights nothing changes but the table, which is sampled as finely as it needs.
+    const Direction inside = Direction::fromAngles(0.4, phi);
+    EXPECT_LT(rmsDifference(relit(linear, inside), relit(display, inside)), 3e-3) << phi;
+  }
 }
 
 class EveryFit : public testing::TestWithParam<BasisFamily> {};

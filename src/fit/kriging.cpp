@@ -135,9 +135,11 @@ bool trendIsSupported(std::span<const Direction> lights, int order) {
   const std::size_t functions = static_cast<std::size_t>(order + 1) * (order + 1);
   // One light beyond what the trend takes, or there is no error left to choose by.
   if (order > 0 && lights.size() <= functions) return false;
-  const Eigen::JacobiSVD<Matrix> svd(trendAt(lights, order));
-  const Vector& s = svd.singularValues();
-  return s[s.size() - 1] > 1e-4 * s[0];
+  // Singular values of the trend, squared.
+  const Matrix trend = trendAt(lights, order);
+  const Matrix moments = trend.transpose() * trend;
+  const Vector squared = largestEigenPairs(moments, static_cast<int>(moments.rows())).values;
+  return squared[squared.size() - 1] > 1e-8 * squared[0];
 }
 
 Kriging::Kriging(std::span<const Direction> lights, KrigingModel model)
@@ -151,9 +153,9 @@ Kriging::Kriging(std::span<const Direction> lights, KrigingModel model)
   // Q = N (N^T A N)^-1 N^T, which stays accurate where A itself is nearly singular.
   const Matrix complement = complementOf(trend);
   const Matrix inner = complement.transpose() * a * complement;
-  kernelWeights_ = complement * inner.ldlt().solve(complement.transpose());
+  kernelWeights_ = complement * solveSymmetric(inner, complement.transpose());
   // Kriging's weights w = Q k + T f solve A w + F mu = k, F^T w = f: T = (I - Q A) F (F^T F)^-1.
-  const Matrix pseudo = trend * (trend.transpose() * trend).inverse();
+  const Matrix pseudo = solveSymmetric(trend.transpose() * trend, trend.transpose()).transpose();
   trendWeights_ = pseudo - kernelWeights_ * (a * pseudo);
 }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "fit/kriging.h"
 #include "fit/leave_one_out.h"
@@ -49,9 +50,52 @@ std::vector<Direction> tableNodes(std::span<const Direction> lights) {
   return nodes;
 }
 
+// The greatest rms amplification of the photographs' noise under a light above the horizon.
+double noiseGain(const Kriging& kriging) {
+  std::vector<Direction> directions;
+  for (const WeightedDirection& node : capQuadrature(std::numbers::pi / 2, kTableRings))
+    directions.push_back(node.direction);
+  return std::sqrt(kriging.weightsAt(directions).rowwise().squaredNorm().maxCoeff());
+}
+
+// How far from the lights the interpolation is believed. Beyond, lights that stand in a narrow cap
+// tell nothing, and what is predicted there is amplified noise, the more of it the farther out. So
+// a light beyond does what one at the cap's edge does that stands at the same side, weaker as a
+// level surface has it: by the cosine. The edge is soft, two mean spacings wide, for a table with
+// a crease in it takes more bytes; half of that, which is what is believed, is as far as
+// leave-one-out has tried it. Interpolation that stays calm to the horizon is believed everywhere.
+class Reach {
+ public:
+  Reach(const Kriging& kriging, std::span<const Direction> lights, bool displayReferred)
+      : edge_(litCapOf(lights).thetaMaxRadians),
+        width_(2 * meanSpacingRadians(lights)),
+        exponent_(displayReferred ? 1 / kDisplayGamma : 1) {
+    if (noiseGain(kriging) <= kCalm) edge_ = std::numbers::pi;
+  }
+
+  struct Believed {
+    Direction direction;
+    double factor = 1;
+  };
+  Believed believed(Direction d) const {
+    const double beyond = d.thetaRadians() - edge_;
+    if (edge_ + 0.5 * width_ >= std::numbers::pi / 2 || beyond <= 0) return {d};
+    const double x = std::min(beyond, width_);
+    const double theta = edge_ + x - 0.5 * x * x / width_;
+    const double cosine = std::max(0.0, d.z()) / std::cos(theta);
+    return {Direction::fromAngles(theta, d.phiRadians()), std::pow(cosine, exponent_)};
+  }
+
+ private:
+  // sRGB's curve is about a power of this, and a factor of light about one of its values.
+  static constexpr double kDisplayGamma = 2.2;
+  static constexpr double kCalm = 1.5;
+  double edge_, width_, exponent_;
+};
+
 // Columns 3k..3k+2: plane k's colour; the last three: the mean picture's.
 BasisTable tableOf(const PrincipalPlanes& planes, const Kriging& kriging, const Vector& mean,
-                   std::span<const Direction> lights, double errorPerChannel) {
+                   std::span<const Direction> lights, const Reach& reach, double errorPerChannel) {
   const int count = static_cast<int>(planes.variances.size()), n = kriging.lights();
   // Row c*n+l of [functions mean], as lights x (columns): one product a direction.
   Matrix columns(n, 3 * count + 3);
@@ -69,9 +113,9 @@ BasisTable tableOf(const PrincipalPlanes& planes, const Kriging& kriging, const 
   request.budget = 3 * kTableShare * errorPerChannel;
   request.nodes = tableNodes(lights);
   request.values = [&](ChartPoint p, std::span<double> out) {
-    const Direction d = directionFromChart(p);
+    const auto [direction, factor] = reach.believed(directionFromChart(p));
     Eigen::Map<Eigen::RowVectorXd>(out.data(), columns.cols()) =
-        kriging.weightsAt({&d, 1}) * columns;
+        factor * kriging.weightsAt({&direction, 1}) * columns;
   };
   return chooseTable(request);
 }
@@ -137,7 +181,8 @@ Fit fitLearned(std::span<const Direction> lights, const SampleStatistics& statis
                                     : alone            ? "all there are"
                                                        : "cross-validation"));
   const double errorPerChannel = std::pow(10.0, -fit.leaveOneOutDecibels / 10);
-  BasisTable table = tableOf(planes, kriging, moments.mean, lights, errorPerChannel);
+  BasisTable table = tableOf(planes, kriging, moments.mean, lights,
+                             Reach(kriging, lights, options.displayReferred), errorPerChannel);
   fit.choices.push_back(fmt::format("light table: {0} x {0} samples", table.resolution()));
   BasisColour colour;
   colour.kind = BasisColour::Kind::Full;

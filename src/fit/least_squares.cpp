@@ -34,7 +34,7 @@ Matrix leastSquaresOperator(const Matrix& normalMatrix, const Matrix& rightSide,
   const double scale = normalMatrix.trace() / static_cast<double>(normalMatrix.rows());
   Matrix regular = normalMatrix;
   regular.diagonal() += lambda * scale * penalty;
-  return regular.ldlt().solve(rightSide);
+  return solveSymmetric(regular, rightSide);
 }
 
 Vector roughness(const AnalyticBasis& basis) {

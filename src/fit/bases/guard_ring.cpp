@@ -51,7 +51,7 @@ class GuardFit {
       }
     }
     addPrior();
-    const Matrix solution = normal_.ldlt().solve(right_);
+    const Matrix solution = solveSymmetric(normal_, right_);
     forUnknowns([&](int unknown, int c, float& value) {
       value = static_cast<float>(solution(unknown, c));
     });
