@@ -21,6 +21,7 @@
 #include "core/files.h"
 #include "illum/error.h"
 #include "scene/assimp_material.h"
+#include "scene/fbx_check.h"
 #include "scene/gltf_features.h"
 #include "scene/mesh_check.h"
 #include "scene/obj_check.h"
@@ -293,6 +294,7 @@ Scene readMeshFile(const fs::path& file, std::optional<double> smoothDegrees,
     const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
     remarkOnMissingMaterials(checkedObjMaterials(text, file.string()), file, remarks);
   }
+  if (endingOf(file) == ".fbx") checkFbx(bytes, file.string());
   Assimp::Importer importer;
   const aiScene& from = import(importer, file);
   checkTriangles(from, features.triangles, file);

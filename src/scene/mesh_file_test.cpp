@@ -221,13 +221,15 @@ TEST(MeshFile, FbxFromAnotherProgramsHand) {
   const aiScene* obj = importer.ReadFile(folder.write("square.obj", kSquareObj).string(), 0);
   ASSERT_NE(obj, nullptr);
   Assimp::Exporter exporter;
-  ASSERT_EQ(exporter.Export(obj, "fbxa", folder.path("square.fbx").string()), aiReturn_SUCCESS);
-  std::vector<std::string> remarks;
-  const Scene scene = readMeshFile(folder.path("square.fbx"), {}, remarks);
-  ASSERT_EQ(scene.meshes.size(), 1u);
-  EXPECT_EQ(scene.meshes[0].triangles.size(), 2u);
-  EXPECT_NEAR(scene.materials.at(static_cast<std::size_t>(scene.meshes[0].material)).baseColour.g,
-              0.25, 1e-5);
+  for (const char* form : {"fbxa", "fbx"}) {
+    ASSERT_EQ(exporter.Export(obj, form, folder.path("square.fbx").string()), aiReturn_SUCCESS);
+    std::vector<std::string> remarks;
+    const Scene scene = readMeshFile(folder.path("square.fbx"), {}, remarks);
+    ASSERT_EQ(scene.meshes.size(), 1u) << form;
+    EXPECT_EQ(scene.meshes[0].triangles.size(), 2u);
+    EXPECT_NEAR(scene.materials.at(static_cast<std::size_t>(scene.meshes[0].material)).baseColour.g,
+                0.25, 1e-5);
+  }
 }
 
 TEST(MeshFile, BadFilesAreRefusedInOneSentence) {

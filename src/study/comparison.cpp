@@ -86,6 +86,8 @@ BytePicture coverageOf(const Relighter& relighter, int group, const std::vector<
   return coverage;
 }
 
+const BytePicture kNoCoverage;
+
 /// Premultiplied colour is colour over black.
 Picture withoutAlpha(const Picture& relit) {
   Picture rgb(relit.size(), 3);
@@ -127,38 +129,75 @@ Comparison::Comparison(const Object& object, const Capture& truth, ViewPair view
     coverage_ = coverageOf(relighter_, view.object, steps_);
 }
 
-ComparedBand Comparison::compared(int light, const Rectangle& rows) const {
+ComparedBand Comparison::compared(int light, const Rectangle& rows,
+                                  std::span<const float> samples) const {
   const DirectionalLight& source = truth_.lights().at(static_cast<std::size_t>(light)).light;
   Picture relit = relighter_.relightRegion({&source, 1}, rows, view_.object);
   if (relit.channels() == 4) relit = withoutAlpha(relit);
   BytePicture bytes = displayBytes(relit);
+  const BytePicture& coverage = object_.manifest().mask ? coverage_ : kNoCoverage;
   return {std::move(relit), std::move(bytes),
-          readPhotograph(truth_, view_.truth, light, rows,
-                         object_.manifest().mask ? coverage_ : BytePicture())};
+          samples.empty() ? readPhotograph(truth_, view_.truth, light, rows, coverage)
+                          : photographOf(samples, truth_, light, rows, coverage)};
 }
 
-int Comparison::lightsAtOnce(std::uint64_t keptBytes) const {
+/// Samples as Capture::read() gives them of `rows`, computed row by row on all threads.
+std::vector<float> Comparison::rendered(std::span<const int> lights, const Rectangle& rows) const {
+  const auto width = static_cast<std::size_t>(rows.width);
+  std::vector<float> samples(3 * lights.size() * rows.pixels());
+  tbb::parallel_for(0, rows.height, [&](int y) {
+    std::vector<float> row(3 * lights.size() * width);
+    truth_.read(view_.truth, {rows.x, rows.y + y, rows.width, 1}, lights, row);
+    float* to = samples.data() + static_cast<std::size_t>(y) * width;
+    for (auto from = row.begin(); from != row.end(); from += rows.width, to += rows.pixels())
+      std::copy_n(from, width, to);
+  });
+  return samples;
+}
+
+Comparison::AtOnce Comparison::lightsAtOnce(std::size_t lights, std::uint64_t keptBytes) const {
   // Relit with and without alpha, samples and linear photograph in floats; two pictures in bytes.
   constexpr std::uint64_t kBytesPerPixel = (4 + 3 + 3 + 3) * sizeof(float) + 2 * 3;
+  // The samples of all, and once more in the rows that are being rendered.
+  constexpr std::uint64_t kRenderedBytesPerPixel = 2 * 3 * sizeof(float);
   std::uint64_t largest = 1;
   for (const Rectangle& rows : steps_) largest = std::max<std::uint64_t>(largest, rows.pixels());
   const std::uint64_t held = truth_.residentBytes() + tileBytes_ + keptBytes;
-  const std::uint64_t free = memoryBytes_ > held ? memoryBytes_ - held : 0;
+  std::uint64_t free = memoryBytes_ > held ? memoryBytes_ - held : 0;
+  AtOnce atOnce{lights};
+  if (truth_.isRendered()) {
+    const std::uint64_t each = largest * kRenderedBytesPerPixel;
+    atOnce.read = std::clamp<std::uint64_t>(free / 2 / each, 1, lights);
+    free -= std::min(free, atOnce.read * each);
+  }
   const auto threads = static_cast<std::uint64_t>(tbb::this_task_arena::max_concurrency());
-  return static_cast<int>(std::clamp<std::uint64_t>(free / (largest * kBytesPerPixel), 1, threads));
+  atOnce.compared =
+      static_cast<int>(std::clamp<std::uint64_t>(free / (largest * kBytesPerPixel), 1, threads));
+  return atOnce;
 }
 
 void Comparison::forEachBand(
     std::span<const int> lights, std::uint64_t keptBytes, Progress& progress,
     const std::function<void(std::size_t i, const ComparedBand& band)>& use) const {
-  tbb::task_arena arena(lightsAtOnce(keptBytes));
+  if (lights.empty()) return;
+  const AtOnce atOnce = lightsAtOnce(lights.size(), keptBytes);
+  tbb::task_arena arena(atOnce.compared);
+  std::vector<float> samples;
   for (const Rectangle& rows : steps_) {
-    const auto underLight = [&](std::size_t i) {
-      // Isolated: a thread that waits inside must not begin another light and hold two.
-      tbb::this_task_arena::isolate([&] { use(i, compared(lights[i], rows)); });
-      progress.advance();
-    };
-    arena.execute([&] { tbb::parallel_for(std::size_t{0}, lights.size(), underLight); });
+    for (std::size_t first = 0; first < lights.size(); first += atOnce.read) {
+      const std::span<const int> some =
+          lights.subspan(first, std::min(atOnce.read, lights.size() - first));
+      if (truth_.isRendered()) samples = rendered(some, rows);
+      const std::size_t each = samples.size() / some.size();
+      const auto underLight = [&](std::size_t i) {
+        // Isolated: a thread that waits inside must not begin another light and hold two.
+        tbb::this_task_arena::isolate([&] {
+          use(first + i, compared(some[i], rows, std::span(samples).subspan(i * each, each)));
+        });
+        progress.advance();
+      };
+      arena.execute([&] { tbb::parallel_for(std::size_t{0}, some.size(), underLight); });
+    }
   }
 }
 

@@ -47,16 +47,23 @@ class Comparison {
   const BytePicture& coverage() const { return coverage_; }
 
   /// Goes down the pictures band by band, and in each band under all `lights` (indices), several at
-  /// once. `use(i, band)` gets lights[i]; calls with the same i come one after the other from the
-  /// top, others may run at the same time. `progress` advances by one for each call; bandCount() *
-  /// lights.size() in all. `keptBytes`: what the caller keeps meanwhile.
+  /// once. A rendered capture is read for as many of them together as memory allows, since its
+  /// lights share their paths. `use(i, band)` gets lights[i]; calls with the same i come one after
+  /// the other from the top, others may run at the same time. `progress` advances by one for each
+  /// call; bandCount() * lights.size() in all. `keptBytes`: what the caller keeps meanwhile.
   void forEachBand(std::span<const int> lights, std::uint64_t keptBytes, Progress& progress,
                    const std::function<void(std::size_t i, const ComparedBand& band)>& use) const;
   std::uint64_t stepCount() const { return steps_.size(); }
 
  private:
-  ComparedBand compared(int light, const Rectangle& rows) const;
-  int lightsAtOnce(std::uint64_t keptBytes) const;
+  /// `samples`: what the capture gave for this light; empty if it was not read yet.
+  ComparedBand compared(int light, const Rectangle& rows, std::span<const float> samples) const;
+  std::vector<float> rendered(std::span<const int> lights, const Rectangle& rows) const;
+  struct AtOnce {
+    std::size_t read = 1;  ///< lights that the samples of a step are held of
+    int compared = 1;      ///< threads that each hold one light's pictures
+  };
+  AtOnce lightsAtOnce(std::size_t lights, std::uint64_t keptBytes) const;
 
   const Object& object_;
   const Capture& truth_;

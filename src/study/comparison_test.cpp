@@ -101,5 +101,53 @@ TEST(Comparison, BothSidesAreOverBlack) {
   });
 }
 
+/// What forEachBand() hands out of each light, one row after the other.
+std::vector<std::vector<float>> photographedUnder(const Comparison& comparison,
+                                                  const std::vector<int>& lights) {
+  std::vector<std::vector<float>> rows(lights.size());
+  Progress progress;
+  comparison.forEachBand(lights, 0, progress, [&](std::size_t i, const ComparedBand& band) {
+    const auto linear = band.photograph.linear.samples();
+    rows[i].insert(rows[i].end(), linear.begin(), linear.end());
+  });
+  return rows;
+}
+
+TEST(Comparison, RenderedLightsAreReadTogetherAndComeOutTheSame) {
+  const TemporaryFolder folder("rendered");
+  const Object object = makeObject(folder.path() / "a.illum", maskedObject());
+  const auto capture = [] {
+    return FakeCapture(kSize, Transfer::Linear, ringOfLights(9, {1, 0.5F, 2}),
+                       [](int light, int x, int y, int c) {
+                         return static_cast<float>(1000 * light + pattern(x, y, c)) / 9000;
+                       });
+  };
+  const std::vector<int> lights{2, 0, 3, 5, 4, 8, 1};
+  const FakeCapture photographed = capture();
+  const auto expected = photographedUnder({object, photographed, {}, 0}, lights);
+  EXPECT_EQ(photographed.lightsOfReads(), std::pair(1, 1));
+
+  FakeCapture rendered = capture();
+  rendered.asRendered();
+  EXPECT_EQ(photographedUnder({object, rendered, {}, 0}, lights), expected);
+  EXPECT_EQ(rendered.lightsOfReads(), std::pair(7, 7));
+  EXPECT_EQ(rendered.reads(), 7 * kSize.height) << "each row once";
+
+  // A step is a row of tiles at most, 24 bytes a pixel and light.
+  const std::uint64_t threeLights = 2 * 3 * 24 * Size{kSize.width, 64}.pixels();
+  const std::uint64_t tiles = 2 * sizeof(std::uint16_t) * kSize.pixels();
+  FakeCapture scarce = capture();
+  scarce.asRendered();
+  const Comparison bounded(object, scarce, {}, threeLights + 4 * tiles);
+  EXPECT_EQ(photographedUnder(bounded, lights), expected);
+  EXPECT_LT(scarce.lightsOfReads().second, 5);
+  EXPECT_GT(scarce.lightsOfReads().second, 1);
+
+  FakeCapture without = capture();
+  without.asRendered();
+  EXPECT_EQ(photographedUnder({object, without, {}, 1}, lights), expected);
+  EXPECT_EQ(without.lightsOfReads(), std::pair(1, 1)) << "no memory for more";
+}
+
 }  // namespace
 }  // namespace illum

@@ -42,10 +42,16 @@ class FakeCapture : public Capture {
     return *this;
   }
 
+  FakeCapture& asRendered() {
+    rendered_ = true;
+    return *this;
+  }
+
   const std::vector<View>& views() const override { return views_; }
   Transfer transfer() const override { return transfer_; }
   const std::vector<LightFileEntry>& lights() const override { return lights_; }
   bool hasMask() const override { return static_cast<bool>(coverage_); }
+  bool isRendered() const override { return rendered_; }
 
   void read(int view, const Rectangle& rectangle, std::span<const int> lights,
             std::span<float> samples) const override {
@@ -71,6 +77,8 @@ class FakeCapture : public Capture {
   /// sequential formats decode all photographs again. So would going back to an earlier view.
   int backwardReads() const { return backwardReads_; }
   int reads() const { return reads_; }
+  /// The fewest and the most lights that were asked for at once.
+  std::pair<int, int> lightsOfReads() const { return {fewest_, most_}; }
 
  private:
   void noteRead(int view, const Rectangle& rectangle, std::span<const int> lights) const {
@@ -78,7 +86,10 @@ class FakeCapture : public Capture {
     backwardReads_ += view < view_ || (view == view_ && rectangle.y > 0 && rectangle.y < lowest_);
     view_ = view;
     lowest_ = rectangle.y;
-    reads_ += static_cast<int>(lights.size());
+    const auto asked = static_cast<int>(lights.size());
+    reads_ += asked;
+    fewest_ = fewest_ == 0 ? asked : std::min(fewest_, asked);
+    most_ = std::max(most_, asked);
   }
 
   std::vector<View> views_;
@@ -87,8 +98,9 @@ class FakeCapture : public Capture {
   ViewSample sample_;
   Coverage coverage_;
   int bandRows_ = 0;
+  bool rendered_ = false;
   mutable std::mutex mutex_;
-  mutable int view_ = 0, lowest_ = 0, backwardReads_ = 0, reads_ = 0;
+  mutable int view_ = 0, lowest_ = 0, backwardReads_ = 0, reads_ = 0, fewest_ = 0, most_ = 0;
 };
 
 /// `count` cameras side by side, named front0, front1, ...; each picture two pixels wider than the

@@ -12,6 +12,14 @@ namespace {
 
 /// Enough to make a step worthwhile; with all that is made of them, about 30 MB.
 constexpr int kStepPixels = 1 << 19;
+/// Of a rendered capture, lights times pixels: 50 MB of samples.
+constexpr std::size_t kStepSamples = std::size_t{1} << 22;
+
+int pixelsOfStep(const Capture& capture) {
+  if (!capture.isRendered()) return kStepPixels;
+  const std::size_t lights = std::max<std::size_t>(1, capture.lights().size());
+  return static_cast<int>(std::min<std::size_t>(kStepPixels, kStepSamples / lights));
+}
 
 /// One sample as it was photographed: linear, and as a byte.
 struct Shown {
@@ -54,7 +62,7 @@ void showChannel(std::span<const float> samples, std::span<const std::uint8_t> c
 
 std::vector<Rectangle> stepsDown(const Capture& capture, int view, int tileRows) {
   const Size size = capture.size(view);
-  const int most = std::max(1, kStepPixels / std::max(1, size.width));
+  const int most = std::max(1, pixelsOfStep(capture) / std::max(1, size.width));
   const int bandRows = std::max(1, capture.bandRows());
   std::vector<Rectangle> steps;
   for (int y = 0; y < size.height; y += steps.back().height) {
@@ -66,17 +74,21 @@ std::vector<Rectangle> stepsDown(const Capture& capture, int view, int tileRows)
 
 PhotographBand readPhotograph(const Capture& capture, int view, int light, const Rectangle& rows,
                               const BytePicture& coverage) {
-  const LinearRgb intensity = capture.lights().at(static_cast<std::size_t>(light)).light.intensity;
-  const std::array<float, 3> factors{intensity.r, intensity.g, intensity.b};
   std::vector<float> samples(3 * rows.pixels());
   capture.read(view, rows, {&light, 1}, samples);
+  return photographOf(samples, capture, light, rows, coverage);
+}
 
+PhotographBand photographOf(std::span<const float> samples, const Capture& capture, int light,
+                            const Rectangle& rows, const BytePicture& coverage) {
+  const LinearRgb intensity = capture.lights().at(static_cast<std::size_t>(light)).light.intensity;
+  const std::array<float, 3> factors{intensity.r, intensity.g, intensity.b};
   PhotographBand band{rows, Picture(rows.size(), 3), BytePicture(rows.size(), 3)};
   std::span<const std::uint8_t> covered = coverage.samples();
   if (!covered.empty()) covered = covered.subspan(Size{rows.width, rows.y}.pixels(), rows.pixels());
   for (std::size_t c = 0; c < 3; ++c)
-    showChannel(std::span(samples).subspan(c * rows.pixels(), rows.pixels()), covered,
-                capture.transfer(), factors[c], c, band);
+    showChannel(samples.subspan(c * rows.pixels(), rows.pixels()), covered, capture.transfer(),
+                factors[c], c, band);
   return band;
 }
 

@@ -269,6 +269,80 @@ def test_binary_gltf_whose_chunk_is_too_short(illum, tmp_path, length, offset):
                   mentions=["a.glb", "buffer"], leaves=tmp_path)
 
 
+FBX = "; FBX 7.3.0 project file\nFBXHeaderExtension:  {\n\tFBXVersion: 7300\n}\n"
+
+
+def fbx_text(models, links):
+    return "".join([FBX, "Objects:  {\n",
+                    *(f'\tModel: {i}, "Model::m{i}", "Null" {{\n\t}}\n' for i in range(1, models + 1)),
+                    "}\nConnections:  {\n", *(f'\tC: "OO",{a},{b}\n' for a, b in links), "}\n"])
+
+
+def fbx_record(at, name, properties=b"", count=0, records=()):
+    """A record of binary FBX that begins at `at`; `records`: functions of their own places."""
+    head = 13 + len(name) + len(properties)
+    within = b""
+    for record in records:
+        within += record(at + head + len(within))
+    within += bytes(13) if records else b""
+    return struct.pack("<3IB", at + head + len(within), count, len(properties), len(name)) + \
+        name + properties + within
+
+
+def binary_fbx(*records):
+    data = b"Kaydara FBX Binary  \0\x1a\0" + struct.pack("<I", 7300)
+    for record in records:
+        data += record(len(data))
+    return data + bytes(13)
+
+
+def nested_fbx(levels):
+    end = 27 + 27 * levels
+    heads = (struct.pack("<3IBc", end - 13 * i, 0, 0, 1, b"A") for i in range(levels))
+    return binary_fbx(lambda at: b"".join(heads) + bytes(13) * levels)
+
+
+def chained_fbx(models):
+    def number(value):
+        return b"L" + struct.pack("<q", value)
+
+    def model(i):
+        return lambda at: fbx_record(at, b"Model", number(i) + b"S\0\0\0\0" * 2, 3)
+
+    def link(i):
+        return lambda at: fbx_record(at, b"C", b"S\2\0\0\0OO" + number(i) + number(i - 1), 3)
+
+    return binary_fbx(
+        lambda at: fbx_record(at, b"Objects", records=[model(i) for i in range(1, models + 1)]),
+        lambda at: fbx_record(at, b"Connections", records=[link(i) for i in range(1, models + 1)]))
+
+
+MANY = 100_000
+BAD_FBX = {
+    "records within each other": (FBX + "A:  {\n" * MANY + "}\n" * MANY, "100 others"),
+    "records that never end": (FBX + "A:  {\n" * MANY, "100 others"),
+    "binary records within each other": (nested_fbx(MANY), "100 others"),
+    "a chain of models": (fbx_text(MANY, [(i, i - 1) for i in range(1, MANY + 1)]), "1000 models"),
+    "a chain upwards": (fbx_text(MANY, [(i, i - 1) for i in range(MANY, 0, -1)]), "1000 models"),
+    "a binary chain of models": (chained_fbx(MANY), "1000 models"),
+    "a model in itself": (fbx_text(1, [(1, 1)]), "itself"),
+    "models in a circle": (fbx_text(3, [(1, 2), (2, 3), (3, 1)]), "itself"),
+    "a circle below": (fbx_text(3, [(1, 0), (2, 1), (3, 2), (2, 3)]), "2 belonging to two"),
+    "a model twice in another": (fbx_text(2, [(1, 0), (2, 1), (2, 1)]), "2 belonging to two"),
+    "a deep tree of nothing": (fbx_text(900, [(i, i - 1) for i in range(1, 901)]), "triangles"),
+    "a comment and a string of braces": (FBX + "; " + "{" * 200 + '\nA: "' + "{" * 200 + '"\n',
+                                         "FBX-Parser"),
+}
+
+
+@pytest.mark.parametrize("fault", BAD_FBX)
+def test_spoilt_fbx(illum, tmp_path, fault):
+    data, mention = BAD_FBX[fault]
+    (tmp_path / "a.fbx").write_bytes(data if isinstance(data, bytes) else data.encode())
+    illum.refuses("build", tmp_path / "a.fbx", "-o", tmp_path / "o.illum", *SMALL,
+                  mentions=["a.fbx", mention], leaves=tmp_path)
+
+
 HAIR = {
     "empty": "", "blank": "\n\n\n", "letters": "a b c\n", "one point": "0 0 0\n",
     "one point among others": "0 0 0\n0 1 0\n\n0 0 0\n", "no number": "0 0 0\nnan 0 0\n",

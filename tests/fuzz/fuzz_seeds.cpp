@@ -177,6 +177,40 @@ void addCaptureFiles(const fs::path& folder) {
   corpus.add(textOf(file));
 }
 
+/// One FBX record of the form before 7500, which begins at `at`, around others.
+std::string fbxRecord(std::size_t at, const std::string& name, const std::string& properties,
+                      const std::string& within = "") {
+  constexpr std::size_t kHead = 13;
+  std::string record;
+  const std::size_t bytes = kHead + name.size() + properties.size() + within.size();
+  for (const std::size_t value : {at + bytes, std::size_t{1}, properties.size()})
+    for (int shift = 0; shift < 32; shift += 8)
+      record.push_back(static_cast<char>(value >> shift & 0xff));
+  record.push_back(static_cast<char>(name.size()));
+  return record + name + properties + within;
+}
+
+void addMeshes(const fs::path& folder) {
+  Corpus objs(folder / "obj_fuzz");
+  objs.add(
+      "# c\nmtllib a b.mtl\no cube\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvn 0 0 1\n"
+      "usemtl m\nf 1/1/1 2//1 \\\n3/1\nf -1 -2 -3\n");
+  objs.add("v 0 0 0\r\nf 1 1 99999999999999999999\r\n");
+  Corpus fbxs(folder / "fbx_fuzz");
+  fbxs.add(
+      "; FBX 7.3.0 project file\nFBXHeaderExtension:  {\n\tFBXVersion: 7300\n}\nObjects:  {\n"
+      "\tModel: 5, \"Model::a\", \"Null\" {\n\t\tVersion: 232\n\t}\n\tModel: 6, \"Model::b\", "
+      "\"Mesh\" {\n\t}\n}\nConnections:  {\n\tC: \"OO\",5,0\n\tC: \"OO\",6,5\n}\n");
+  std::string binary("Kaydara FBX Binary  \0\x1a\0\x84\x1c\0\0", 27);
+  const std::string model("L\5\0\0\0\0\0\0\0", 9), last(13, '\0');
+  constexpr std::size_t kNamed = 13 + 7;  // bytes of a record "Objects" before what is within
+  binary += fbxRecord(27, "Objects", "", fbxRecord(27 + kNamed, "Model", model) + last);
+  const std::string link =
+      std::string("S\2\0\0\0OO", 7) + model + std::string("L", 1) + std::string(8, '\0');
+  binary += fbxRecord(binary.size(), "C", link);
+  fbxs.add(binary);
+}
+
 void addScenes(const fs::path& folder) {
   Corpus scenes(folder / "scene_fuzz");
   scenes.add(R"({"illumScene":1,"meshes":[{"shape":"teapot","material":"clay"},{"file":"a.glb",)"
@@ -237,6 +271,7 @@ int main(int argc, char** argv) {
     illum::addLightingFiles(argv[1]);
     illum::addCameras(argv[1]);
     illum::addScenes(argv[1]);
+    illum::addMeshes(argv[1]);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "%s\n", error.what());
     return 1;
