@@ -73,21 +73,29 @@ class MaterialReader {
   void remark(const std::string& sentence) {
     remarks_.push_back(fmt::format("{} {}", title_, sentence));
   }
-  static float unit(float value) {
-    return std::isfinite(value) ? std::clamp(value, 0.0F, 1.0F) : 0;
+  /// Between 0 and 1, with a word if it was not.
+  float unit(const char* name, float value) {
+    if (!std::isfinite(value))
+      throw Error(Fault::Input,
+                  fmt::format("{}: expected a number as its {}, found {}", title_, name, value));
+    constexpr float kRounding = 1e-5F;
+    const float bounded = std::clamp(value, 0.0F, 1.0F);
+    if (std::abs(bounded - value) > kRounding)
+      remark(fmt::format("has {} as its {}; {} is taken", value, name, bounded));
+    return bounded;
   }
-  static LinearRgb unit(const aiColor3D& c) { return {unit(c.r), unit(c.g), unit(c.b)}; }
 
-  static void addColours(const aiMaterial& from, Material& material) {
+  void addColours(const aiMaterial& from, Material& material) {
     aiColor3D base(0.8F, 0.8F, 0.8F);
     if (from.Get(AI_MATKEY_BASE_COLOR, base) != AI_SUCCESS) from.Get(AI_MATKEY_COLOR_DIFFUSE, base);
-    material.baseColour = unit(base);
+    constexpr const char* kBase = "base colour";
+    material.baseColour = {unit(kBase, base.r), unit(kBase, base.g), unit(kBase, base.b)};
     float metallic = 0, roughness = 1;
     const bool physical = from.Get(AI_MATKEY_METALLIC_FACTOR, metallic) == AI_SUCCESS;
     if (from.Get(AI_MATKEY_ROUGHNESS_FACTOR, roughness) != AI_SUCCESS && !physical)
       roughness = phongRoughness(from, material);
-    material.metallic = unit(metallic);
-    material.roughness = unit(roughness);
+    material.metallic = unit("metallic factor", metallic);
+    material.roughness = unit("roughness", roughness);
   }
   /// Phong's exponent n and Beckmann's alpha: n = 2 / alpha^2 - 2 (Walter et al. 2007,
   /// section 5.2).
@@ -152,7 +160,12 @@ class MaterialReader {
   void addTransparency(const aiMaterial& from, Material& material) {
     float transmission = 0, ior = 1.5F;
     from.Get(AI_MATKEY_TRANSMISSION_FACTOR, transmission);
-    if (from.Get(AI_MATKEY_REFRACTI, ior) == AI_SUCCESS && ior >= 1 && ior <= 4) material.ior = ior;
+    if (from.Get(AI_MATKEY_REFRACTI, ior) == AI_SUCCESS) {
+      if (ior >= 1 && ior <= 4)
+        material.ior = ior;
+      else
+        remark(fmt::format("has {} as its index of refraction; {} is taken", ior, material.ior));
+    }
     if (transmission >= 0.5F) {
       material.kind = Material::Kind::Glass;
       remark("transmits light; it is shown as clear glass");
@@ -171,7 +184,7 @@ class MaterialReader {
   void addAlpha(const aiMaterial& from, const std::string& mode, Material& material) {
     float cutoff = 0.5F;
     from.Get(AI_MATKEY_GLTF_ALPHACUTOFF, cutoff);
-    if (mode == "MASK") material.alphaCutoff = unit(cutoff);
+    if (mode == "MASK") material.alphaCutoff = unit("alpha cutoff", cutoff);
     if (mode == "BLEND") {
       material.alphaCutoff = 0.5F;
       remark("blends with what is behind it; where its alpha is below 0.5 there are holes instead");

@@ -1,10 +1,10 @@
 #include "scene/gltf_check.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <set>
@@ -13,6 +13,8 @@
 #include <vector>
 
 #include "illum/error.h"
+#include "scene/gltf_fields.h"
+#include "scene/gltf_material_check.h"
 #include "scene/uri.h"
 
 namespace illum {
@@ -32,93 +34,42 @@ constexpr std::array<std::pair<std::uint64_t, std::uint64_t>, 6> kComponentBytes
 constexpr std::array<std::pair<std::string_view, std::uint64_t>, 7> kComponents{
     {{"SCALAR", 1}, {"VEC2", 2}, {"VEC3", 3}, {"VEC4", 4}, {"MAT2", 4}, {"MAT3", 9}, {"MAT4", 16}}};
 
-/// A record and where it stands, such as accessors[3].
-struct Place {
-  const Json& record;
-  std::string path;
-};
+constexpr std::uint64_t kUnsignedByte = 5121, kUnsignedShort = 5123, kUnsignedInt = 5125,
+                        kFloat = 5126;
 
-class GltfChecker {
+/// What assimp understands of an attribute, by the beginning of its name. It takes coordinates of
+/// textures for floats whatever they are.
+struct AttributeForm {
+  std::string_view name;
+  std::vector<std::string_view> types;
+  std::vector<std::uint64_t> components;
+};
+const std::array<AttributeForm, 7> kAttributes{{
+    {"POSITION", {"VEC3"}, {kFloat}},
+    {"NORMAL", {"VEC3"}, {kFloat}},
+    {"TANGENT", {"VEC4", "VEC3"}, {kFloat}},  // of three numbers in morph targets
+    {"TEXCOORD", {"VEC2"}, {kFloat}},
+    {"COLOR", {"VEC3", "VEC4"}, {kFloat, kUnsignedByte, kUnsignedShort}},
+    {"JOINTS", {"VEC4"}, {kUnsignedByte, kUnsignedShort}},
+    {"WEIGHTS", {"VEC4"}, {kFloat, kUnsignedByte, kUnsignedShort}},
+}};
+
+class GltfChecker : private GltfFields {
  public:
   GltfChecker(const Json& root, std::uint64_t binaryBytes, const std::string& source)
-      : root_(root), binaryBytes_(binaryBytes), source_(source) {}
+      : GltfFields(source), root_(root), binaryBytes_(binaryBytes) {}
 
   std::uint64_t triangles() {
     checkBuffers();
     checkViews();
     checkAccessors();
+    checkGltfMaterials(root_, views_.size(), source());
     checkMeshes();
     checkNodes();
     return checkScenes();
   }
 
  private:
-  [[noreturn]] void fail(const std::string& field, std::string_view expected,
-                         const Json* found) const {
-    const std::string shown =
-        found == nullptr ? "none"
-                         : found->dump(-1, ' ', true, Json::error_handler_t::replace).substr(0, 60);
-    throw Error(Fault::Input, fmt::format("{}: field '{}': expected {}, found {}", source_, field,
-                                          expected, shown));
-  }
-
-  static const Json* fieldOf(const Json& record, const char* name) {
-    const auto found = record.find(name);
-    return found == record.end() ? nullptr : &*found;
-  }
-
-  /// `fallback`: of a field that may be missing.
-  std::uint64_t whole(const Place& place, const char* name, std::uint64_t low, std::uint64_t high,
-                      std::optional<std::uint64_t> fallback = {}) const {
-    const Json* found = fieldOf(place.record, name);
-    if (found == nullptr && fallback) return *fallback;
-    if (found == nullptr || !found->is_number_unsigned() || found->get<std::uint64_t>() < low ||
-        found->get<std::uint64_t>() > high)
-      fail(place.path + "." + name, fmt::format("a whole number from {} to {}", low, high), found);
-    return found->get<std::uint64_t>();
-  }
-
-  /// The number of an entry of a list that has `count`; nothing if the field is missing.
-  std::optional<std::size_t> maybeIndex(const Place& place, const char* name,
-                                        std::size_t count) const {
-    const Json* found = fieldOf(place.record, name);
-    if (found == nullptr) return std::nullopt;
-    checkIndex(*found, place.path + "." + name, count);
-    return found->get<std::size_t>();
-  }
-  std::size_t index(const Place& place, const char* name, std::size_t count) const {
-    const std::optional<std::size_t> found = maybeIndex(place, name, count);
-    if (!found) fail(place.path + "." + name, "a number", nullptr);
-    return *found;
-  }
-  void checkIndex(const Json& found, const std::string& field, std::size_t count) const {
-    if (!found.is_number_unsigned() || found.get<std::uint64_t>() >= count)
-      fail(field, fmt::format("the number of one of {}", count), &found);
-  }
-
-  /// A list that may be missing.
-  const Json& list(const Json& record, const char* name, const std::string& path) const {
-    static const Json kEmpty = Json::array();
-    const Json* found = fieldOf(record, name);
-    if (found != nullptr && !found->is_array()) fail(path + name, "a list", found);
-    return found == nullptr ? kEmpty : *found;
-  }
-  std::vector<Place> records(const Json& record, const char* name,
-                             const std::string& path = "") const {
-    std::vector<Place> places;
-    for (const Json& entry : list(record, name, path)) {
-      places.push_back({entry, fmt::format("{}{}[{}]", path, name, places.size())});
-      if (!entry.is_object()) fail(places.back().path, "a record", &entry);
-    }
-    return places;
-  }
-  Place record(const Place& place, const char* name) const {
-    const Json* found = fieldOf(place.record, name);
-    const std::string path = place.path + "." + name;
-    if (found == nullptr || !found->is_object()) fail(path, "a record", found);
-    return {*found, path};
-  }
-
   void checkBuffers() {
     for (const Place& buffer : records(root_, "buffers")) {
       const std::uint64_t bytes = whole(buffer, "byteLength", 1, kMaxBytes);
@@ -158,7 +109,7 @@ class GltfChecker {
       throw Error(Fault::Input,
                   fmt::format("{}: field '{}': expected elements within the {} bytes of their "
                               "view, found {} of {} bytes",
-                              source_, place.path, view.bytes, count, elementBytes));
+                              source(), place.path, view.bytes, count, elementBytes));
   }
   std::uint64_t componentBytes(const Place& place) const {
     const std::uint64_t type = whole(place, "componentType", 5120, 5126);
@@ -175,6 +126,11 @@ class GltfChecker {
     fail(place.path + ".type", "a type of glTF 2", type);
   }
 
+  struct Accessor {
+    std::uint64_t count = 0;
+    std::string type;
+    std::uint64_t component = 0;
+  };
   void checkAccessors() {
     for (const Place& accessor : records(root_, "accessors")) {
       const std::uint64_t bytes = componentBytes(accessor) * components(accessor);
@@ -188,7 +144,8 @@ class GltfChecker {
         checkWithin(indices, changed, componentBytes(indices));
         checkWithin(record(sparse, "values"), changed, bytes);
       }
-      counts_.push_back(count);
+      accessors_.push_back({count, accessor.record["type"].get<std::string>(),
+                            whole(accessor, "componentType", 0, kFloat)});
     }
   }
 
@@ -202,15 +159,52 @@ class GltfChecker {
   std::uint64_t trianglesOf(const Place& primitive) const {
     constexpr std::uint64_t kTriangles = 4, kMostModes = 6;
     const std::uint64_t mode = whole(primitive, "mode", 0, kMostModes, kTriangles);
+    maybeIndex(primitive, "material", list(root_, "materials", "").size());
     const Place attributes = record(primitive, "attributes");
-    for (const auto& [name, accessor] : attributes.record.items())
-      checkIndex(accessor, attributes.path + "." + name, counts_.size());
-    std::optional<std::size_t> corners = maybeIndex(primitive, "indices", counts_.size());
-    if (!corners) corners = maybeIndex(attributes, "POSITION", counts_.size());
-    if (mode < kTriangles || !corners || !attributes.record.contains("POSITION")) return 0;
-    const std::uint64_t count = counts_[*corners];
+    const std::optional<std::uint64_t> vertices = verticesOf(attributes, {});
+    for (const Place& target : records(primitive.record, "targets", primitive.path + "."))
+      verticesOf(target, vertices);
+    const std::optional<std::size_t> indices = maybeIndex(primitive, "indices", accessors_.size());
+    if (indices)
+      checkForm(accessors_[*indices],
+                {"", {"SCALAR"}, {kUnsignedByte, kUnsignedShort, kUnsignedInt}},
+                primitive.path + ".indices");
+    if (mode < kTriangles || !attributes.record.contains("POSITION")) return 0;
+    const std::uint64_t count = indices ? accessors_[*indices].count : *vertices;
     if (count < 3) fail(primitive.path, "at least three corners", nullptr);
     return mode == kTriangles ? count / 3 : count - 2;
+  }
+
+  /// Of all attributes, which have as many; nothing if there are none.
+  std::optional<std::uint64_t> verticesOf(const Place& attributes,
+                                          std::optional<std::uint64_t> vertices) const {
+    for (const auto& [name, number] : attributes.record.items()) {
+      const std::string field = attributes.path + "." + name;
+      checkIndex(number, field, accessors_.size());
+      const Accessor& accessor = accessors_[number.get<std::size_t>()];
+      if (!vertices) vertices = accessor.count;
+      if (accessor.count != *vertices)
+        failForm(field, fmt::format("{} elements as other attributes have", *vertices), accessor);
+      for (const AttributeForm& form : kAttributes)
+        if (name.starts_with(form.name)) checkForm(accessor, form, field);
+    }
+    return vertices;
+  }
+  void checkForm(const Accessor& accessor, const AttributeForm& form,
+                 const std::string& field) const {
+    if (std::ranges::find(form.types, accessor.type) == form.types.end() ||
+        std::ranges::find(form.components, accessor.component) == form.components.end())
+      failForm(field,
+               fmt::format("an accessor of type {} and of component type {}",
+                           fmt::join(form.types, " or "), fmt::join(form.components, " or ")),
+               accessor);
+  }
+  [[noreturn]] void failForm(const std::string& field, const std::string& expected,
+                             const Accessor& found) const {
+    throw Error(Fault::Input,
+                fmt::format("{}: field '{}': expected {}, found {} of type {} and of component "
+                            "type {}",
+                            source(), field, expected, found.count, found.type, found.component));
   }
 
   void checkNodes() {
@@ -253,7 +247,7 @@ class GltfChecker {
       throw Error(Fault::Input,
                   fmt::format("{}: field 'nodes': expected trees, found a node that is a child of "
                               "its own",
-                              source_));
+                              source()));
   }
   /// Calls use(node) for these nodes and all below them, a level at a time.
   template <typename Use>
@@ -263,7 +257,7 @@ class GltfChecker {
       if (depth >= kDeepest)
         throw Error(Fault::Input, fmt::format("{}: field 'nodes': expected trees of at most {} "
                                               "levels, found deeper ones",
-                                              source_, kDeepest));
+                                              source(), kDeepest));
       below.clear();
       for (const std::size_t node : level) {
         use(node);
@@ -306,9 +300,9 @@ class GltfChecker {
   };
   const Json& root_;
   std::uint64_t binaryBytes_;
-  const std::string& source_;
-  std::vector<std::uint64_t> buffers_, counts_;  // bytes; elements of accessors
+  std::vector<std::uint64_t> buffers_;  // bytes
   std::vector<BufferView> views_;
+  std::vector<Accessor> accessors_;
   std::vector<std::uint64_t> triangles_;  // of meshes
   std::vector<Node> nodes_;
 };

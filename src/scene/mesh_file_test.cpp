@@ -174,6 +174,22 @@ TEST(MeshFile, ObjWithItsMaterialAndTexture) {
   }
 }
 
+TEST(MeshFile, MaterialsBeyondTheirRangeAreRemarkedOrRefused) {
+  const ScratchFolder folder;
+  const auto file = folder.write("square.obj", kSquareObj);
+  folder.write("square.mtl", "newmtl paint\nKd 2 0.25 -1\nNi 7\n");
+  std::vector<std::string> remarks;
+  const Scene scene = readMeshFile(file, {}, remarks);
+  EXPECT_THAT(remarks, testing::UnorderedElementsAre(
+                           HasSubstr("2 as its base colour; 1 is taken"),
+                           HasSubstr("-1 as its base colour; 0 is taken"),
+                           HasSubstr("7 as its index of refraction; 1.5 is taken")));
+  EXPECT_EQ(scene.materials.at(static_cast<std::size_t>(scene.meshes[0].material)).baseColour,
+            (LinearRgb{1, 0.25F, 0}));
+  folder.write("square.mtl", "newmtl paint\nKd nan 0 0\n");
+  EXPECT_THAT(errorOf(file), HasSubstr("base colour, found nan"));
+}
+
 TEST(MeshFile, TexturesThatAreNotThereAreRemarked) {
   const ScratchFolder folder;
   folder.write("square.mtl", kSquareMtl);

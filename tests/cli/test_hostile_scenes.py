@@ -129,6 +129,27 @@ def sparse(count=1, index_view=1, kind=5123):
         "values": {"bufferView": 0}})
 
 
+def attribute(name, target=False, **form):
+    """Another attribute, or one of a morph target, read from the points' bytes."""
+    at = len(TREE["accessors"])
+    accessor = {"bufferView": 0, "componentType": 5126, "count": 4, "type": "VEC3", **form}
+    attributes = TREE["meshes"][0]["primitives"][0]["attributes"]
+    use = {"targets": [{name: at}]} if target else {"attributes": {**attributes, name: at}}
+    return {"accessors": [*TREE["accessors"], accessor], **primitive(**use)}
+
+
+def material(**fields):
+    return {"materials": [fields], **primitive(material=0)}
+
+
+def metallic_roughness(**fields):
+    return material(pbrMetallicRoughness=fields)
+
+
+def extension(name, **fields):
+    return {"extensionsUsed": [name], **material(extensions={name: fields})}
+
+
 NAN = struct.pack("<f", math.nan)
 BAD_GLTF = {
     "a buffer that is missing": (buffer("none.bin"), "none.bin"),
@@ -164,7 +185,21 @@ BAD_GLTF = {
     "a view that is not there": (changed("accessors", 0, bufferView=9), "accessors[0].bufferView"),
     "an unknown type": (changed("accessors", 0, type="VEC9"), "accessors[0].type"),
     "an unknown component": (changed("accessors", 0, componentType=1), "accessors[0].componentType"),
-    "points of one number": (changed("accessors", 0, type="SCALAR"), "a.gltf"),
+    "points of one number": (changed("accessors", 0, type="SCALAR"), "attributes.POSITION"),
+    "points of whole numbers": (changed("accessors", 0, componentType=5123), "attributes.POSITION"),
+    "indices of floats": (changed("accessors", 1, componentType=5126, count=3),
+                          "primitives[0].indices"),
+    "indices of three numbers": (changed("accessors", 1, type="VEC3", count=2),
+                                 "primitives[0].indices"),
+    "normals of two numbers": (attribute("NORMAL", type="VEC2"), "attributes.NORMAL"),
+    "fewer normals than points": (attribute("NORMAL", count=3), "attributes."),
+    "coordinates of bytes": (attribute("TEXCOORD_0", type="VEC2", componentType=5121),
+                             "attributes.TEXCOORD_0"),
+    "fewer coordinates than points": (attribute("TEXCOORD_0", type="VEC2", count=2), "attributes."),
+    "colours of one number": (attribute("COLOR_0", type="SCALAR"), "attributes.COLOR_0"),
+    "fewer colours than points": (attribute("COLOR_0", count=1), "attributes."),
+    "morphed points that are fewer": (attribute("POSITION", target=True, count=2),
+                                      "targets[0].POSITION"),
     "indices of four bytes": (changed("accessors", 1, componentType=5125), "accessors[1]"),
     "a view beyond its buffer": (changed("bufferViews", 1, byteLength=25), "bufferViews[1]"),
     "a view before its buffer": (changed("bufferViews", 1, byteOffset=-24), "bufferViews[1]"),
@@ -180,7 +215,7 @@ BAD_GLTF = {
                                          TREE["accessors"][1]]}, "accessors[0].count"),
     "points that are not there": (primitive(attributes={"POSITION": 9}), "attributes.POSITION"),
     "indices that are not there": (primitive(indices=9), "primitives[0].indices"),
-    "a material that is not there": (primitive(material=9), "materials"),
+    "a material that is not there": (primitive(material=9), "primitives[0].material"),
     "an unknown mode": (primitive(mode=77), "primitives[0].mode"),
     "points alone": (primitive(mode=0), "a.gltf"),
     "a strip of one corner": ({**primitive(mode=5), **changed("accessors", 1, count=1)}, "corners"),
@@ -209,6 +244,36 @@ BAD_GLTF = {
     "nodes that are no list": ({"nodes": {}}, "nodes"),
     "nodes that are numbers": ({"nodes": [1, 2]}, "nodes[0]"),
     "meshes that are nothing": ({"meshes": None}, "meshes"),
+    "a colour of three numbers": (metallic_roughness(baseColorFactor=[1, 1, 1]), "baseColorFactor"),
+    "a colour above 1": (metallic_roughness(baseColorFactor=[1, 1, 2, 1]), "baseColorFactor"),
+    "a colour below 0": (metallic_roughness(baseColorFactor=[1, -1, 1, 1]), "baseColorFactor"),
+    "a colour of words": (metallic_roughness(baseColorFactor=["1"] * 4), "baseColorFactor"),
+    "a colour that is one number": (metallic_roughness(baseColorFactor=1), "baseColorFactor"),
+    "a huge roughness": (metallic_roughness(roughnessFactor=1e300), "roughnessFactor"),
+    "a negative roughness": (metallic_roughness(roughnessFactor=-0.5), "roughnessFactor"),
+    "a roughness in words": (metallic_roughness(roughnessFactor="dull"), "roughnessFactor"),
+    "a metallic factor above 1": (metallic_roughness(metallicFactor=1.5), "metallicFactor"),
+    "a metallic factor that is a list": (metallic_roughness(metallicFactor=[1]), "metallicFactor"),
+    "factors that are a list": (material(pbrMetallicRoughness=[]), "pbrMetallicRoughness"),
+    "an emission of words": (material(emissiveFactor="bright"), "emissiveFactor"),
+    "a negative cutoff": (material(alphaMode="MASK", alphaCutoff=-1), "alphaCutoff"),
+    "an unknown alpha mode": (material(alphaMode="DITHER"), "alphaMode"),
+    "a texture that is not there": (metallic_roughness(baseColorTexture={"index": 3}),
+                                    "baseColorTexture.index"),
+    "a texture that is a number": (material(normalTexture=3), "normalTexture"),
+    "an image that is not there": ({**textured("a.png"), "textures": [{"source": 4}]},
+                                   "textures[0].source"),
+    "a sampler that is not there": ({**textured("a.png"), "textures": [{"source": 0, "sampler": 2}]},
+                                    "textures[0].sampler"),
+    "a texture wrapped in an unknown way": ({"samplers": [{"wrapS": 7}]}, "samplers[0].wrapS"),
+    "an image in a view that is not there": ({**textured("a.png"), "images": [{"bufferView": 7}]},
+                                             "images[0].bufferView"),
+    "an image named by a number": (textured(4), "images[0].uri"),
+    "a transmission above 1": (extension("KHR_materials_transmission", transmissionFactor=2),
+                               "transmissionFactor"),
+    "a negative refraction": (extension("KHR_materials_ior", ior=-1.5), "KHR_materials_ior.ior"),
+    "a diffuse factor of words": (extension("KHR_materials_pbrSpecularGlossiness",
+                                            diffuseFactor="red"), "diffuseFactor"),
     "an image of base64 that is none": (textured("data:image/png;base64,@@"), "base64"),
 }
 
@@ -242,6 +307,12 @@ GOOD_GLTF = {
     "a fan": primitive(mode=6),
     "no indices": {"meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}]},
     "a deep tree": {"nodes": [*({"children": [i + 1]} for i in range(900)), {"mesh": 0}]},
+    "normals": attribute("NORMAL"),
+    "colours of bytes": attribute("COLOR_0", type="VEC4", componentType=5121, normalized=True),
+    "an attribute of its own": attribute("_SCAN", type="SCALAR"),
+    "all factors": metallic_roughness(baseColorFactor=[1, 0, 0.5, 1], metallicFactor=1,
+                                      roughnessFactor=1.0000001),
+    "a sampler": {"samplers": [{"wrapS": 10497}]},
 }
 
 
