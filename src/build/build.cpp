@@ -211,6 +211,16 @@ void describe(const Plan& plan, const std::vector<View>& views, const EncodeSett
                             settings.speed));
 }
 
+// A few highlights brighter than any that the pilot saw are to be expected.
+void tellClipping(const SampleCounts& samples, BuildReport& report) {
+  constexpr std::uint64_t kFew = 10000;  // one in as many
+  if (samples.clipped == 0) return;
+  auto& told = samples.clipped > samples.all / kFew ? report.warnings : report.choices;
+  told.push_back(fmt::format(
+      "{} of {} plane samples lay outside the quantiser's range and took its nearest end",
+      samples.clipped, samples.all));
+}
+
 // basis.bin: the tables one after another.
 std::vector<std::byte> encodeTables(const Plan& plan, Manifest& manifest) {
   std::vector<std::byte> all;
@@ -260,12 +270,9 @@ BuildReport buildObject(const Capture& source, const std::filesystem::path& out,
     std::vector<int> planesOfBases;
     for (const PlannedBasis& basis : plan.bases) planesOfBases.push_back(basis.fit.basis.planes());
     const int atOnce = tilesAtOnce(manifest, planesOfBases, capture, memoryBytes);
-    const std::uint64_t clipped =
+    const SampleCounts samples =
         ViewWriter(capture, lights, plan, manifest, settings, atOnce, writer, progress).writeAll();
-    if (clipped > 0) {
-      report.warnings.push_back(fmt::format(
-          "{} plane samples lay outside the quantiser's range and took its nearest end", clipped));
-    }
+    tellClipping(samples, report);
     writer.add(std::string(kBasisEntry), encodeTables(plan, manifest));
     const std::string text = textOf(manifest);
     writer.add(std::string(kManifestEntry), std::as_bytes(std::span(text)));

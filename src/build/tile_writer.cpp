@@ -73,6 +73,7 @@ void TileWriter::writeTile(const PlaneRow& row, int x) {
   std::uint64_t clipped = 0;
   const CodingEntry& coding = manifest_.coding(row.group);
   const auto codes = quantise(coding, planes, tile.size(), clipped);
+  samples_ += planes.size();
   clipped_ += clipped;
   writer_.add(name, encodeTile(codes, coding.coding, coding.bits, settings_));
 }

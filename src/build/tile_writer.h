@@ -14,6 +14,12 @@
 
 namespace illum {
 
+/// Of planes, as they became codes: how many there were, and how many lay outside the quantiser's
+/// range.
+struct SampleCounts {
+  std::uint64_t all = 0, clipped = 0;
+};
+
 class TileWriter {
  public:
   /// `atOnce`: tiles coded side by side, which bounds memory. `progress` advances by the pixels of
@@ -29,7 +35,7 @@ class TileWriter {
   /// Quantises, codes and adds the row's tiles that the writer does not have yet.
   void write(const PlaneRow& row);
 
-  std::uint64_t clippedSamples() const { return clipped_; }
+  SampleCounts samples() const { return {samples_, clipped_}; }
 
  private:
   void writeTile(const PlaneRow& row, int x);
@@ -41,7 +47,7 @@ class TileWriter {
   int atOnce_;
   ObjectWriter& writer_;
   Progress& progress_;
-  std::atomic<std::uint64_t> clipped_ = 0;
+  std::atomic<std::uint64_t> samples_ = 0, clipped_ = 0;
 };
 
 /// Bytes that coding the largest tile of any group takes beside the row itself, an estimate.

@@ -46,7 +46,7 @@ ViewWriter::ViewWriter(const Capture& capture, const LightChoice& lights, const 
       pyramid_(manifest, [this](const PlaneRow& row) { take(row); }),
       fitter_(capture, lights.used, operatorsOf(plan), manifest, progress) {}
 
-std::uint64_t ViewWriter::writeAll() {
+SampleCounts ViewWriter::writeAll() {
   chooseDepths();
   std::vector<int> left;
   std::uint64_t pixels = 0;
@@ -64,7 +64,7 @@ std::uint64_t ViewWriter::writeAll() {
       pyramid_.add(fitter_.fit(group, row));
   }
   progress_.end();
-  return tiles_.clippedSamples();
+  return tiles_.samples();
 }
 
 // Before any tile, for the manifest speaks of the depths of finished views too.

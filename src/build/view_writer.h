@@ -23,8 +23,9 @@ class ViewWriter {
              Progress& progress);
 
   /// Writes the tiles of all views and the poster, and the ranges of depths into the manifest.
-  /// Views that an earlier run has finished are not read again. Returns the clipped samples.
-  std::uint64_t writeAll();
+  /// Views that an earlier run has finished are not read again. Returns the samples that became
+  /// codes.
+  SampleCounts writeAll();
 
  private:
   void chooseDepths();

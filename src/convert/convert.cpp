@@ -201,7 +201,7 @@ bool Conversion::run(ConvertReport& report) {
     if (options_.stop && options_.stop()) return false;
   }
   progress_.end();
-  report.clippedSamples = tiles.clippedSamples();
+  report.clippedSamples = tiles.samples().clipped;
   copyEntry(std::string(kBasisEntry));
   const auto names = source_.entries();
   if (std::ranges::find(names, kPosterEntry) != names.end()) copyEntry(std::string(kPosterEntry));
