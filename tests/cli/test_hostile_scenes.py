@@ -463,8 +463,7 @@ def test_what_obj_allows_is_taken(illum, tmp_path, ending):
 
 
 MATERIALS = {"missing": ("none.mtl", True), "a folder": ("folder", True),
-             "bytes": ("bytes.mtl", False), "empty": ("empty.mtl", False),
-             "no numbers": ("nan.mtl", False)}
+             "bytes": ("bytes.mtl", False), "empty": ("empty.mtl", False)}
 
 
 @pytest.mark.parametrize("fault", MATERIALS)
@@ -473,7 +472,15 @@ def test_materials_of_obj_are_remarked_at_most(illum, tmp_path, fault):
     (tmp_path / "folder").mkdir()
     (tmp_path / "bytes.mtl").write_bytes(bytes(range(256)) * 9)
     (tmp_path / "empty.mtl").write_bytes(b"")
-    (tmp_path / "nan.mtl").write_text("newmtl m\nKd nan -5 1e99\nNs nan\nNi nan\nd nan\n")
     (tmp_path / "a.obj").write_text(f"mtllib {name}\nusemtl m\n" + obj_text())
     outcome = illum("build", tmp_path / "a.obj", "-o", tmp_path / "o.illum", *SMALL)
     assert (f"'{name}', which are not there" in outcome.stderr) == remarked, outcome
+
+
+@pytest.mark.parametrize("line", ["Kd nan -5 1e99", "Ks 0 nan 0", "Ns nan", "Ni nan", "d nan"])
+def test_a_material_of_obj_that_is_no_number_is_refused(illum, tmp_path, line):
+    (tmp_path / "a.mtl").write_text(f"newmtl m\n{line}\n")
+    (tmp_path / "a.obj").write_text("mtllib a.mtl\nusemtl m\n" + obj_text())
+    illum.refuses("build", tmp_path / "a.obj", "-o", tmp_path / "o.illum", *SMALL,
+                  mentions=["a.obj: material 'm': expected a number as its", "found nan"],
+                  leaves=tmp_path)
