@@ -73,13 +73,15 @@ class MaterialReader {
   void remark(const std::string& sentence) {
     remarks_.push_back(fmt::format("{} {}", title_, sentence));
   }
+  float finite(const char* name, float value) const {
+    if (std::isfinite(value)) return value;
+    throw Error(Fault::Input,
+                fmt::format("{}: expected a number as its {}, found {}", title_, name, value));
+  }
   /// Between 0 and 1, with a word if it was not.
   float unit(const char* name, float value) {
-    if (!std::isfinite(value))
-      throw Error(Fault::Input,
-                  fmt::format("{}: expected a number as its {}, found {}", title_, name, value));
     constexpr float kRounding = 1e-5F;
-    const float bounded = std::clamp(value, 0.0F, 1.0F);
+    const float bounded = std::clamp(finite(name, value), 0.0F, 1.0F);
     if (std::abs(bounded - value) > kRounding)
       remark(fmt::format("has {} as its {}; {} is taken", value, name, bounded));
     return bounded;
@@ -99,12 +101,13 @@ class MaterialReader {
   }
   /// Phong's exponent n and Beckmann's alpha: n = 2 / alpha^2 - 2 (Walter et al. 2007,
   /// section 5.2).
-  static float phongRoughness(const aiMaterial& from, Material& material) {
+  float phongRoughness(const aiMaterial& from, Material& material) const {
     float exponent = 0;
     aiColor3D highlight(0, 0, 0);
     from.Get(AI_MATKEY_COLOR_SPECULAR, highlight);
-    if (from.Get(AI_MATKEY_SHININESS, exponent) != AI_SUCCESS || !(exponent > 0) ||
-        highlight.IsBlack()) {
+    for (const float value : {highlight.r, highlight.g, highlight.b}) finite("highlight", value);
+    if (from.Get(AI_MATKEY_SHININESS, exponent) != AI_SUCCESS ||
+        finite("shininess", exponent) <= 0 || highlight.IsBlack()) {
       material.specular = 0;
       return 1;
     }
@@ -161,6 +164,7 @@ class MaterialReader {
     float transmission = 0, ior = 1.5F;
     from.Get(AI_MATKEY_TRANSMISSION_FACTOR, transmission);
     if (from.Get(AI_MATKEY_REFRACTI, ior) == AI_SUCCESS) {
+      finite("index of refraction", ior);
       if (ior >= 1 && ior <= 4)
         material.ior = ior;
       else
@@ -178,7 +182,8 @@ class MaterialReader {
       return;
     }
     float opacity = 1;
-    if (from.Get(AI_MATKEY_OPACITY, opacity) == AI_SUCCESS && opacity < 1)
+    from.Get(AI_MATKEY_OPACITY, opacity);
+    if (finite("opacity", opacity) < 1)
       remark(fmt::format("has an opacity of {}; it is shown opaque", opacity));
   }
   void addAlpha(const aiMaterial& from, const std::string& mode, Material& material) {

@@ -14,6 +14,7 @@
 
 #include "illum/error.h"
 #include "scene/gltf_fields.h"
+#include "scene/gltf_forms.h"
 #include "scene/gltf_material_check.h"
 #include "scene/uri.h"
 
@@ -29,26 +30,23 @@ constexpr std::uint64_t kMaxZeros = std::uint64_t{1} << 20;
 /// Deeper than any skeleton; assimp goes down a tree by recursion.
 constexpr std::size_t kDeepest = 1000;
 
-constexpr std::array<std::pair<std::uint64_t, std::uint64_t>, 6> kComponentBytes{
-    {{5120, 1}, {5121, 1}, {5122, 2}, {5123, 2}, {5125, 4}, {5126, 4}}};
 constexpr std::array<std::pair<std::string_view, std::uint64_t>, 7> kComponents{
     {{"SCALAR", 1}, {"VEC2", 2}, {"VEC3", 3}, {"VEC4", 4}, {"MAT2", 4}, {"MAT3", 9}, {"MAT4", 16}}};
 
-constexpr std::uint64_t kUnsignedByte = 5121, kUnsignedShort = 5123, kUnsignedInt = 5125,
-                        kFloat = 5126;
+using gltf::kFloat, gltf::kUnsignedByte, gltf::kUnsignedShort, gltf::kUnsignedInt;
 
-/// What assimp understands of an attribute, by the beginning of its name. It takes coordinates of
-/// textures for floats whatever they are.
+/// What is understood of an attribute, by the beginning of its name.
 struct AttributeForm {
   std::string_view name;
   std::vector<std::string_view> types;
   std::vector<std::uint64_t> components;
 };
+constexpr std::string_view kTexcoord = "TEXCOORD";
 const std::array<AttributeForm, 7> kAttributes{{
     {"POSITION", {"VEC3"}, {kFloat}},
     {"NORMAL", {"VEC3"}, {kFloat}},
     {"TANGENT", {"VEC4", "VEC3"}, {kFloat}},  // of three numbers in morph targets
-    {"TEXCOORD", {"VEC2"}, {kFloat}},
+    {kTexcoord, {"VEC2"}, {kFloat, kUnsignedByte, kUnsignedShort}},
     {"COLOR", {"VEC3", "VEC4"}, {kFloat, kUnsignedByte, kUnsignedShort}},
     {"JOINTS", {"VEC4"}, {kUnsignedByte, kUnsignedShort}},
     {"WEIGHTS", {"VEC4"}, {kFloat, kUnsignedByte, kUnsignedShort}},
@@ -59,14 +57,14 @@ class GltfChecker : private GltfFields {
   GltfChecker(const Json& root, std::uint64_t binaryBytes, const std::string& source)
       : GltfFields(source), root_(root), binaryBytes_(binaryBytes) {}
 
-  std::uint64_t triangles() {
+  GltfMeshes meshes() {
     checkBuffers();
     checkViews();
     checkAccessors();
     checkGltfMaterials(root_, views_.size(), source());
     checkMeshes();
     checkNodes();
-    return checkScenes();
+    return {checkScenes(), packedTexcoords_};
   }
 
  private:
@@ -113,11 +111,11 @@ class GltfChecker : private GltfFields {
   }
   std::uint64_t componentBytes(const Place& place) const {
     const std::uint64_t type = whole(place, "componentType", 5120, 5126);
-    const auto* found = std::ranges::find(kComponentBytes, type, [](auto& p) { return p.first; });
-    if (found == kComponentBytes.end())
+    const std::uint64_t bytes = gltf::bytesOfComponent(type);
+    if (bytes == 0)
       fail(place.path + ".componentType", "a type of glTF 2",
            fieldOf(place.record, "componentType"));
-    return found->second;
+    return bytes;
   }
   std::uint64_t components(const Place& place) const {
     const Json* type = fieldOf(place.record, "type");
@@ -130,6 +128,7 @@ class GltfChecker : private GltfFields {
     std::uint64_t count = 0;
     std::string type;
     std::uint64_t component = 0;
+    bool normalized = false;
   };
   void checkAccessors() {
     for (const Place& accessor : records(root_, "accessors")) {
@@ -145,7 +144,8 @@ class GltfChecker : private GltfFields {
         checkWithin(record(sparse, "values"), changed, bytes);
       }
       accessors_.push_back({count, accessor.record["type"].get<std::string>(),
-                            whole(accessor, "componentType", 0, kFloat)});
+                            whole(accessor, "componentType", 0, kFloat),
+                            flag(accessor, "normalized")});
     }
   }
 
@@ -156,7 +156,7 @@ class GltfChecker : private GltfFields {
         triangles_.back() += trianglesOf(primitive);
     }
   }
-  std::uint64_t trianglesOf(const Place& primitive) const {
+  std::uint64_t trianglesOf(const Place& primitive) {
     constexpr std::uint64_t kTriangles = 4, kMostModes = 6;
     const std::uint64_t mode = whole(primitive, "mode", 0, kMostModes, kTriangles);
     maybeIndex(primitive, "material", list(root_, "materials", "").size());
@@ -164,6 +164,8 @@ class GltfChecker : private GltfFields {
     const std::optional<std::uint64_t> vertices = verticesOf(attributes, {});
     for (const Place& target : records(primitive.record, "targets", primitive.path + "."))
       verticesOf(target, vertices);
+    for (const auto& [name, number] : attributes.record.items())
+      if (name.starts_with(kTexcoord)) noteTexcoords(number, attributes.path + "." + name);
     const std::optional<std::size_t> indices = maybeIndex(primitive, "indices", accessors_.size());
     if (indices)
       checkForm(accessors_[*indices],
@@ -189,6 +191,13 @@ class GltfChecker : private GltfFields {
         if (name.starts_with(form.name)) checkForm(accessor, form, field);
     }
     return vertices;
+  }
+  void noteTexcoords(const Json& number, const std::string& field) {
+    const Accessor& accessor = accessors_[number.get<std::size_t>()];
+    if (accessor.component == kFloat) return;
+    if (!accessor.normalized)
+      failForm(field, "an accessor of floats, or one that is normalized", accessor);
+    packedTexcoords_ = true;
   }
   void checkForm(const Accessor& accessor, const AttributeForm& form,
                  const std::string& field) const {
@@ -305,13 +314,13 @@ class GltfChecker : private GltfFields {
   std::vector<Accessor> accessors_;
   std::vector<std::uint64_t> triangles_;  // of meshes
   std::vector<Node> nodes_;
+  bool packedTexcoords_ = false;
 };
 
 }  // namespace
 
-std::uint64_t checkedGltfTriangles(const Json& root, std::uint64_t binaryBytes,
-                                   const std::string& source) {
-  return GltfChecker(root, binaryBytes, source).triangles();
+GltfMeshes checkedGltf(const Json& root, std::uint64_t binaryBytes, const std::string& source) {
+  return GltfChecker(root, binaryBytes, source).meshes();
 }
 
 }  // namespace illum

@@ -4,13 +4,11 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdint>
-#include <cstring>
 #include <nlohmann/json.hpp>
 #include <string_view>
 
 #include "illum/error.h"
-#include "scene/gltf_check.h"
+#include "scene/gltf_container.h"
 #include "scene/json_guard.h"
 
 namespace illum {
@@ -22,37 +20,6 @@ using Json = nlohmann::json;
 constexpr std::array<std::string_view, 4> kKnown{"KHR_materials_unlit",
                                                  "KHR_materials_pbrSpecularGlossiness",
                                                  "KHR_materials_transmission", "KHR_materials_ior"};
-
-std::uint32_t littleEndian(std::span<const std::byte> bytes, std::size_t at) {
-  std::uint32_t value = 0;
-  for (std::size_t i = 0; i < 4; ++i)
-    value |= std::to_integer<std::uint32_t>(bytes[at + i]) << (8 * i);
-  return value;
-}
-
-/// The JSON of a .gltf as it is, of a .glb its first chunk.
-std::string_view jsonOf(std::span<const std::byte> file, const std::string& source) {
-  constexpr std::uint32_t kMagic = 0x46546C67, kJsonChunk = 0x4E4F534A;
-  constexpr std::size_t kHeader = 12, kChunkHeader = 8;
-  const auto* text = reinterpret_cast<const char*>(file.data());
-  if (file.size() < 4 || littleEndian(file, 0) != kMagic) return {text, file.size()};
-  if (file.size() < kHeader + kChunkHeader || littleEndian(file, 4) != 2 ||
-      littleEndian(file, kHeader + 4) != kJsonChunk ||
-      littleEndian(file, kHeader) > file.size() - kHeader - kChunkHeader)
-    throw Error(
-        Fault::Input,
-        fmt::format("{}: expected a whole binary glTF 2 file, found a damaged one", source));
-  return {text + kHeader + kChunkHeader, littleEndian(file, kHeader)};
-}
-
-/// Of the second chunk of a .glb; 0 if there is none.
-std::uint64_t binaryBytesOf(std::span<const std::byte> file, std::string_view json) {
-  constexpr std::size_t kChunkHeader = 8;
-  const auto* end = reinterpret_cast<const std::byte*>(json.data() + json.size());
-  const auto rest = file.subspan(static_cast<std::size_t>(end - file.data()));
-  if (rest.size() < kChunkHeader) return 0;
-  return std::min<std::uint64_t>(littleEndian(rest, 0), rest.size() - kChunkHeader);
-}
 
 std::size_t countOf(const Json& root, const char* name) {
   const auto found = root.find(name);
@@ -94,8 +61,8 @@ void checkVersion(const Json& root, const std::string& source) {
 }  // namespace
 
 GltfFeatures gltfFeatures(std::span<const std::byte> file, const std::string& source) {
-  const std::string_view json = jsonOf(file, source);
-  const Json root = guardedJson(json, source);
+  const GltfParts parts = gltfParts(file, source);
+  const Json root = guardedJson(parts.json, source);
   checkVersion(root, source);
   const std::vector<std::string> required = unknownOf(root, "extensionsRequired");
   if (!required.empty())
@@ -104,7 +71,7 @@ GltfFeatures gltfFeatures(std::span<const std::byte> file, const std::string& so
                             "found that it requires {}",
                             source, required.front()));
   GltfFeatures features;
-  features.triangles = checkedGltfTriangles(root, binaryBytesOf(file, json), source);
+  features.meshes = checkedGltf(root, parts.binary.size(), source);
   std::vector<std::string>& remarks = features.remarks;
   for (const std::string& name : unknownOf(root, "extensionsUsed"))
     remarks.push_back(

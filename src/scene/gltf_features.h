@@ -2,10 +2,11 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
 #include <span>
 #include <string>
 #include <vector>
+
+#include "scene/gltf_check.h"
 
 namespace illum {
 
@@ -13,7 +14,7 @@ struct GltfFeatures {
   /// One sentence for each extension, animation, skin, morph target, camera or light in the file
   /// that is not taken over.
   std::vector<std::string> remarks;
-  std::uint64_t triangles = 0;  ///< of the meshes that are shown, each counted once
+  GltfMeshes meshes;
 };
 
 /// Throws Error naming `source` for a file that requires an extension that is not known here, for

@@ -56,6 +56,14 @@ class GltfFields {
     return found->get<std::uint64_t>();
   }
 
+  /// False if it is missing.
+  bool flag(const Place& place, const char* name) const {
+    const Json* found = fieldOf(place.record, name);
+    if (found != nullptr && !found->is_boolean())
+      fail(place.path + "." + name, "true or false", found);
+    return found != nullptr && found->get<bool>();
+  }
+
   /// The number of an entry of a list that has `count`; nothing if the field is missing.
   std::optional<std::size_t> maybeIndex(const Place& place, const char* name,
                                         std::size_t count) const {

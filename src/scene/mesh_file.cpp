@@ -23,6 +23,7 @@
 #include "scene/assimp_material.h"
 #include "scene/fbx_check.h"
 #include "scene/gltf_features.h"
+#include "scene/gltf_texcoords.h"
 #include "scene/mesh_check.h"
 #include "scene/obj_check.h"
 #include "scene/ply_file.h"
@@ -52,11 +53,13 @@ bool isGltf(const fs::path& file) {
 class HeldStream;
 using OpenStreams = std::set<HeldStream*>;
 
+using Bytes = std::shared_ptr<const std::vector<std::byte>>;
+
 /// A whole file in memory that assimp reads from.
 class HeldStream final : public Assimp::MemoryIOStream {
  public:
-  HeldStream(std::vector<std::byte> bytes, std::shared_ptr<OpenStreams> open)
-      : MemoryIOStream(reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size(), false),
+  HeldStream(Bytes bytes, std::shared_ptr<OpenStreams> open)
+      : MemoryIOStream(reinterpret_cast<const std::uint8_t*>(bytes->data()), bytes->size(), false),
         bytes_(std::move(bytes)),
         open_(std::move(open)) {
     open_->insert(this);
@@ -64,21 +67,26 @@ class HeldStream final : public Assimp::MemoryIOStream {
   ~HeldStream() override { open_->erase(this); }
 
  private:
-  std::vector<std::byte> bytes_;  // moving a vector leaves its memory where it is
+  Bytes bytes_;
   std::shared_ptr<OpenStreams> open_;
 };
 
 /// Opens ordinary files alone, for reading alone, up to a limit. Names may be escaped as in glTF,
-/// which assimp does not know.
+/// which assimp does not know. The scene's own file has been read, and checked, already.
 class OrdinaryFiles final : public Assimp::IOSystem {
  public:
+  OrdinaryFiles(std::string scene, Bytes bytes)
+      : scene_(std::move(scene)), bytes_(std::move(bytes)) {}
+
   bool Exists(const char* name) const override { return !found(name).empty(); }
   char getOsSeparator() const override { return '/'; }
   Assimp::IOStream* Open(const char* name, const char* mode) override {
     const std::string file = found(name);
     if (std::string_view(mode).find_first_of("wa+") != std::string_view::npos || file.empty())
       return nullptr;
-    return new HeldStream(readFile(file, kMaxFileBytes), open_);
+    if (file == scene_) return new HeldStream(bytes_, open_);
+    return new HeldStream(
+        std::make_shared<const std::vector<std::byte>>(readFile(file, kMaxFileBytes)), open_);
   }
   void Close(Assimp::IOStream* stream) override { delete stream; }
   /// assimp closes some streams, deletes others, and leaves some where it gives up.
@@ -87,6 +95,8 @@ class OrdinaryFiles final : public Assimp::IOSystem {
   }
 
  private:
+  std::string scene_;
+  Bytes bytes_;
   std::shared_ptr<OpenStreams> open_ = std::make_shared<OpenStreams>();
 
   /// Empty: there is none.
@@ -105,8 +115,9 @@ std::string oneLine(std::string text) {
   return text.empty() ? "something that cannot be read" : text.substr(0, 200);
 }
 
-const aiScene& import(Assimp::Importer& importer, const fs::path& file) {
-  importer.SetIOHandler(new OrdinaryFiles);  // the importer deletes it
+const aiScene& import(Assimp::Importer& importer, const fs::path& file, Bytes bytes) {
+  // The importer deletes it.
+  importer.SetIOHandler(new OrdinaryFiles(file.string(), std::move(bytes)));
   importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE,
                               aiPrimitiveType_POINT | aiPrimitiveType_LINE);
   importer.SetPropertyBool(AI_CONFIG_IMPORT_FBX_PRESERVE_PIVOTS, false);
@@ -282,10 +293,11 @@ Scene readMeshFile(const fs::path& file, std::optional<double> smoothDegrees,
   if (!isMeshFile(file))
     throw inputError(file, "a mesh file (.gltf, .glb, .obj, .ply, .fbx)",
                      "a name with another ending");
-  const std::vector<std::byte> bytes = readFile(file, kMaxFileBytes);
+  std::vector<std::byte> bytes = readFile(file, kMaxFileBytes);
   if (bytes.empty()) throw inputError(file, "a mesh file", "an empty one");
   GltfFeatures features;
   if (isGltf(file)) features = gltfFeatures(bytes, file.string());
+  if (features.meshes.packedTexcoords) bytes = withFloatTexcoords(bytes, file);
   std::ranges::move(features.remarks, std::back_inserter(remarks));
   const double degrees = smoothDegrees.value_or(isGltf(file) ? 0 : 60);
   const double smoothRadians = degrees * std::numbers::pi / 180;
@@ -296,8 +308,9 @@ Scene readMeshFile(const fs::path& file, std::optional<double> smoothDegrees,
   }
   if (endingOf(file) == ".fbx") checkFbx(bytes, file.string());
   Assimp::Importer importer;
-  const aiScene& from = import(importer, file);
-  checkTriangles(from, features.triangles, file);
+  const aiScene& from =
+      import(importer, file, std::make_shared<const std::vector<std::byte>>(std::move(bytes)));
+  checkTriangles(from, features.meshes.triangles, file);
   Scene scene;
   remarkOn(from, file, remarks);
   addMeshes(from, file, smoothRadians, scene, remarks);

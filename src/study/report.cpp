@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "core/data_uri.h"
 #include "core/memory.h"
 #include "illum/evaluate.h"
 #include "illum/picture_io.h"

@@ -195,6 +195,16 @@ BAD_GLTF = {
     "fewer normals than points": (attribute("NORMAL", count=3), "attributes."),
     "coordinates of bytes": (attribute("TEXCOORD_0", type="VEC2", componentType=5121),
                              "attributes.TEXCOORD_0"),
+    "coordinates that are not said to be normalised": (
+        attribute("TEXCOORD_0", type="VEC2", componentType=5123, normalized="yes"),
+        "accessors[2].normalized"),
+    "coordinates beyond a short file": (
+        {**buffer("short.bin"), **attribute("TEXCOORD_0", type="VEC2", componentType=5121,
+                                            normalized=True)}, "buffers[0]"),
+    "sparse coordinates of points that are not there": (
+        attribute("TEXCOORD_0", type="VEC2", componentType=5121, normalized=True, sparse={
+            "count": 4, "indices": {"bufferView": 0, "byteOffset": 14, "componentType": 5121},
+            "values": {"bufferView": 0}}), "accessors[2].sparse"),
     "fewer coordinates than points": (attribute("TEXCOORD_0", type="VEC2", count=2), "attributes."),
     "colours of one number": (attribute("COLOR_0", type="SCALAR"), "attributes.COLOR_0"),
     "fewer colours than points": (attribute("COLOR_0", count=1), "attributes."),
@@ -309,6 +319,8 @@ GOOD_GLTF = {
     "a deep tree": {"nodes": [*({"children": [i + 1]} for i in range(900)), {"mesh": 0}]},
     "normals": attribute("NORMAL"),
     "colours of bytes": attribute("COLOR_0", type="VEC4", componentType=5121, normalized=True),
+    "coordinates of bytes": attribute("TEXCOORD_0", type="VEC2", componentType=5121,
+                                      normalized=True),
     "an attribute of its own": attribute("_SCAN", type="SCALAR"),
     "all factors": metallic_roughness(baseColorFactor=[1, 0, 0.5, 1], metallicFactor=1,
                                       roughnessFactor=1.0000001),

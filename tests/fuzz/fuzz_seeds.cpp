@@ -245,6 +245,12 @@ void addScenes(const fs::path& folder) {
       R"("animations":[{}],"skins":[{}],"meshes":[{"primitives":[{"targets":[{}]}]}]})";
   gltfs.add(gltf);
   gltfs.add(R"({"asset":{"version":"2.0"},"extensionsRequired":["KHR_draco_mesh_compression"]})");
+  gltfs.add(
+      R"({"asset":{"version":"2.0"},"meshes":[{"primitives":[{"attributes":{"TEXCOORD_0":0},"mode":0}]}],)"
+      R"("accessors":[{"bufferView":0,"componentType":5121,"normalized":true,"count":3,"type":"VEC2",)"
+      R"("sparse":{"count":1,"indices":{"bufferView":0,"componentType":5121},"values":{"bufferView":0}}}],)"
+      R"("bufferViews":[{"buffer":0,"byteLength":6}],)"
+      R"("buffers":[{"byteLength":6,"uri":"data:;base64,AQIDBAUG"}]})");
   std::string glb("glTF\2\0\0\0", 8);
   const auto add32 = [&](std::size_t value) {
     for (int shift = 0; shift < 32; shift += 8)
