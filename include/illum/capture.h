@@ -30,7 +30,7 @@ class Capture {
  public:
   virtual ~Capture() = default;
 
-  /// At least one; all of the same kind of geometry, each name once. Sizes may differ.
+  /// At least one, each name once. Kinds of geometry and sizes may differ; a photograph is alone.
   virtual const std::vector<View>& views() const = 0;
   int groups() const { return static_cast<int>(views().size()); }
   /// Of one view, in pixels.

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <deque>
+#include <numeric>
 
 #include "illum/error.h"
 #include "illum/lumigraph.h"
@@ -106,36 +107,37 @@ class Synthesis {
   std::deque<ViewProjector> projectors_;  // of the source's views
   std::vector<Rig> rigs_;
   SurfacePoints points_;
-  std::unique_ptr<BlendRule> freeRule_;  // of the views that belong to no slab, at the points
+  std::unique_ptr<BlendRule> freeRule_;  // of the rig that is no slab, at the points
   Picture near_, wide_;                  // sums; the second is empty where it was not needed
   double nearestRange_ = 0;              // of the surface, from the target
   const Picture* hidden_ = nullptr;      // depth of the target where the plane is not seen
 };
 
 void Synthesis::collectRigs() {
+  const int count = static_cast<int>(source_.views().size());
+  std::vector<int> all(static_cast<std::size_t>(count));
+  std::iota(all.begin(), all.end(), 0);
+  // Beside cameras that stand freely, a slab's view points are free cameras, too.
+  if (std::ranges::any_of(all, [&](int view) { return slabView(view) == nullptr; })) {
+    rigs_.push_back({std::move(all), nullptr});
+    return;
+  }
   std::vector<const LightSlab*> slabs;
-  for (int i = 0; i < static_cast<int>(source_.views().size()); ++i) {
-    const SlabView* view = slabView(i);
-    const LightSlab* slab = view != nullptr ? &view->slab : nullptr;
-    const auto same = [&](const LightSlab* other) {
-      return slab == nullptr || other == nullptr ? slab == other : *slab == *other;
-    };
-    const auto found = std::find_if(slabs.begin(), slabs.end(), same);
+  for (const int view : all) {
+    const LightSlab& slab = slabView(view)->slab;
+    const auto found =
+        std::ranges::find_if(slabs, [&](const LightSlab* other) { return *other == slab; });
     if (found == slabs.end()) {
-      slabs.push_back(slab);
-      rigs_.push_back({{i}, nullptr});
+      slabs.push_back(&slab);
+      rigs_.push_back({{view}, nullptr});
     } else {
-      rigs_[static_cast<std::size_t>(found - slabs.begin())].views.push_back(i);
+      rigs_[static_cast<std::size_t>(found - slabs.begin())].views.push_back(view);
     }
   }
-  for (std::size_t r = 0; r < rigs_.size(); ++r) {
-    if (slabs[r] == nullptr) {
-      if (rigs_.size() == 1) continue;
-      throw Error(Fault::Input, "expected views of slabs only, or none, found both");
-    }
+  for (Rig& rig : rigs_) {
     std::vector<SlabView> views;
-    for (const int view : rigs_[r].views) views.push_back(*slabView(view));
-    rigs_[r].rule = slabBlend(target_, views, options_.apertureRadius);
+    for (const int view : rig.views) views.push_back(*slabView(view));
+    rig.rule = slabBlend(target_, views, options_.apertureRadius);
   }
 }
 
@@ -242,7 +244,7 @@ void Synthesis::seeBackdrop(const Picture& surface) {
 }
 
 void Synthesis::placeOnPlane(const Rig& rig) {
-  const SlabView* slab = slabView(rig.views.front());
+  const SlabView* slab = rig.rule ? slabView(rig.views.front()) : nullptr;
   std::vector<const ViewProjector*> views;
   for (const int view : rig.views) views.push_back(&projectors_[static_cast<std::size_t>(view)]);
   const bool photograph = std::holds_alternative<OrthographicView>(

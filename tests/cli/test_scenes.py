@@ -43,7 +43,11 @@ VIEWS = {
     "cylindrical": ([{"panorama": {"projection": "cylindrical", "eye": [0, 0, 3],
                                    "heights": [-0.5, 0.5], "size": [64, 16]}}], 1),
     "photograph": ([{"photograph": {"size": [32, 24]}}], 1),
+    "mixed": ([SLAB, {"camera": {"eye": [3, 2, 4], "size": [32, 24]}},
+               {"panorama": {"eye": [0, 0, 3], "size": [64, 32]}}], 6),
 }
+GEOMETRIES = {"slabs": "slab", "turn": "slab", "poses": "camera", "equirectangular": "panorama",
+              "cylindrical": "panorama"}
 
 
 @pytest.mark.parametrize("kind", VIEWS)
@@ -54,6 +58,8 @@ def test_every_kind_of_view(illum, tmp_path, kind):
     illum("verify", tmp_path / "o.illum")
     info = info_of(illum, tmp_path / "o.illum")
     assert info["views"] == count and info["depth"] and info["mask"]
+    assert info["geometry"] == GEOMETRIES.get(kind, kind)
+    assert sum(info["viewsOfKind"].values()) == count
     assert info["bases"] == {"slabs": 2, "turn": 3}.get(kind, 1)
     illum("relight", tmp_path / "o.illum", "--light", "0.3,0.5,0.8", "-o", tmp_path / "o.png")
     assert stacks.read_picture(tmp_path / "o.png").max() > 100, "the box is lit"
@@ -283,8 +289,17 @@ def test_info_tells_of_views_and_depth(illum, tmp_path):
     views = [{"turn": {"slabs": 3, "viewPoints": [2, 1], "longerSide": 24}}]
     illum("build", write_scene(tmp_path, views=views), "-o", tmp_path / "o.illum")
     text = illum("info", tmp_path / "o.illum").stdout
-    for word in ("6: slab turn_0 2 x 1, turn_1 2 x 1, turn_2 2 x 1", "3 bases", "depth"):
+    for word in ("6: 3 slabs turn_0 to turn_2 of 2 x 1 each", "3 bases", "depth"):
         assert word in text, text
     info = info_of(illum, tmp_path / "o.illum")
     assert [slab["name"] for slab in info["slabs"]] == ["turn_0", "turn_1", "turn_2"]
     assert info["depthBytes"] > 0 and info["maskBytes"] > 0
+
+
+def test_info_tells_mixed_views_apart(illum, tmp_path):
+    illum("build", write_scene(tmp_path, views=VIEWS["mixed"][0]), "-o", tmp_path / "o.illum")
+    info = info_of(illum, tmp_path / "o.illum")
+    assert info["viewsOfKind"] == {"slab": 4, "camera": 1, "panorama": 1} and not info["oneSize"]
+    text = illum("info", tmp_path / "o.illum").stdout
+    for word in ("mixed (4 slab, 1 camera, 1 panorama)", "sizes differ", "6: slab slab of 2 x 2"):
+        assert word in text, text

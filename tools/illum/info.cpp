@@ -41,7 +41,17 @@ const char* kindOf(const ViewGeometry& geometry) {
   return "photograph";
 }
 
-// "slab turn_0, 3 x 2 view points" for each slab that there is.
+// How many views are of each kind, by the order of their first.
+nlohmann::ordered_json kindsOf(const Object& object) {
+  nlohmann::ordered_json kinds = nlohmann::ordered_json::object();
+  for (int group = 0; group < object.groups(); ++group) {
+    auto& views = kinds[kindOf(object.view(group).geometry)];
+    views = views.is_null() ? 1 : views.get<int>() + 1;
+  }
+  return kinds;
+}
+
+// {"name": "turn_0", "columns": 3, "rows": 2} for each slab that there is.
 nlohmann::ordered_json slabsOf(const Manifest& manifest) {
   nlohmann::ordered_json slabs = nlohmann::ordered_json::array();
   for (const GroupEntry& group : manifest.groups) {
@@ -58,19 +68,24 @@ nlohmann::ordered_json describe(const Object& object) {
   const Manifest& m = object.manifest();
   const BasisEntry& basis = m.bases.front();
   const TileGrid grid = m.grid(0);
+  const nlohmann::ordered_json kinds = kindsOf(object);
   double pixels = 0;
+  bool oneSize = true;
   for (int group = 0; group < object.groups(); ++group) {
     pixels += static_cast<double>(object.size(group).pixels());
+    oneSize = oneSize && object.size(group) == grid.size;
   }
   nlohmann::ordered_json out;
   out["version"] = 1;
   out["format"] = fmt::format("{}.{}", m.versionMajor, m.versionMinor);
-  out["geometry"] = kindOf(object.view(0).geometry);
+  out["geometry"] = kinds.size() == 1 ? kinds.items().begin().key() : "mixed";
   out["views"] = object.groups();
+  out["viewsOfKind"] = kinds;
   out["slabs"] = slabsOf(m);
   out["bases"] = m.bases.size();
   out["width"] = grid.size.width;
   out["height"] = grid.size.height;
+  out["oneSize"] = oneSize;
   out["levels"] = grid.levels();
   out["tile"] = m.tile;
   out["basis"] = basis.name;
@@ -99,6 +114,36 @@ nlohmann::ordered_json describe(const Object& object) {
   return out;
 }
 
+// Slabs side by side with as many view points each, such as those of a turn, take one word:
+// "slabs turn_0 to turn_7 of 3 x 2 each".
+std::string textOfSlabs(const nlohmann::ordered_json& slabs) {
+  const auto same = [](const auto& a, const auto& b) {
+    return a["columns"] == b["columns"] && a["rows"] == b["rows"];
+  };
+  std::string text;
+  for (std::size_t first = 0, end = 0; first < slabs.size(); first = end) {
+    while (end < slabs.size() && same(slabs[first], slabs[end])) ++end;
+    const auto name = slabs[first]["name"].get<std::string>();
+    const auto points =
+        fmt::format("{} x {}", slabs[first]["columns"].get<int>(), slabs[first]["rows"].get<int>());
+    text += first == 0 ? ": " : ", ";
+    text += end == first + 1 ? fmt::format("slab {} of {}", name, points)
+                             : fmt::format("{} slabs {} to {} of {} each", end - first, name,
+                                           slabs[end - 1]["name"].get<std::string>(), points);
+  }
+  return text;
+}
+
+// "slab", or "mixed (9 slab, 1 camera)".
+std::string textOfKinds(const nlohmann::ordered_json& facts) {
+  const auto geometry = facts["geometry"].get<std::string>();
+  if (facts["viewsOfKind"].size() == 1) return geometry;
+  std::string parts;
+  for (const auto& [kind, views] : facts["viewsOfKind"].items())
+    parts += fmt::format("{}{} {}", parts.empty() ? "" : ", ", views.get<int>(), kind);
+  return fmt::format("{} ({})", geometry, parts);
+}
+
 void print(const std::string& path, const nlohmann::ordered_json& facts) {
   const auto number = [&](const char* key) { return facts[key].get<long long>(); };
   const auto text = [&](const char* key) { return facts[key].get<std::string>(); };
@@ -109,19 +154,15 @@ void print(const std::string& path, const nlohmann::ordered_json& facts) {
     fmt::print("{:<12}{}\n", name, value);
   };
   fmt::print("{}\n", path);
-  line("geometry", fmt::format("{}, {} x {} pixels, {} level{}, tiles of {}", text("geometry"),
-                               number("width"), number("height"), number("levels"),
-                               number("levels") == 1 ? "" : "s", number("tile")));
-  if (number("views") > 1 || facts["slabs"].size() > 0) {
-    std::string views = fmt::format("{}", number("views"));
-    for (const auto& slab : facts["slabs"])
-      views += fmt::format("{} {} {} x {}", slab == facts["slabs"].front() ? ": slab" : ",",
-                           slab["name"].get<std::string>(), slab["columns"].get<int>(),
-                           slab["rows"].get<int>());
-    line("views", views + (number("bases") > 1
-                               ? fmt::format("; {} bases, this is the first", number("bases"))
-                               : ""));
-  }
+  line("geometry", fmt::format("{}, {} x {} pixels{}, {} level{}, tiles of {}", textOfKinds(facts),
+                               number("width"), number("height"),
+                               facts["oneSize"].get<bool>() ? "" : " (the first; sizes differ)",
+                               number("levels"), number("levels") == 1 ? "" : "s", number("tile")));
+  if (number("views") > 1 || facts["slabs"].size() > 0)
+    line("views", fmt::format("{}{}{}", number("views"), textOfSlabs(facts["slabs"]),
+                              number("bases") > 1
+                                  ? fmt::format("; {} bases, this is the first", number("bases"))
+                                  : ""));
   line("basis", fmt::format("{} over the {}, {} coefficients, {} planes ({} stored)", text("basis"),
                             text("domain"), number("coefficients"), number("planes"),
                             number("storedPlanes")));
