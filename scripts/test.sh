@@ -97,24 +97,37 @@ run_pytest() { # NAME ARGUMENTS…
   return "$status"
 }
 
-run_fuzzer() { # PROGRAM; the build made its first corpus beside it
-  local name corpus log
-  name=$(basename "$1")
-  corpus=$(dirname "$1")/corpus/$name
-  log=$results/$name.log
-  mkdir -p "$results/$name"
-  local folders=("$results/$name")
+# One fuzzer; the build made its first corpus beside it.
+run_fuzzer() { # OUTPUT SECONDS PROGRAM
+  local name corpus
+  name=$(basename "$3")
+  corpus=$(dirname "$3")/corpus/$name
+  mkdir -p "$1/$name"
+  local folders=("$1/$name")
   [ ! -d "$corpus" ] || folders+=("$corpus")
-  if "$1" -max_total_time="$fuzz_seconds" -timeout=20 -rss_limit_mb=1500 -print_final_stats=1 \
-    -artifact_prefix="$results/$name-" "${folders[@]}" >"$log" 2>&1; then
-    count 1 0 0
-    summaries+=("$name: $(grep -o 'Done .*' "$log" | tail -n 1)")
-  else
-    count 0 1 0
-    tail -n 40 "$log"
-    summaries+=("$name: found a fault, see $log")
-    return 1
-  fi
+  "$3" -max_total_time="$2" -timeout=20 -rss_limit_mb=1500 -print_final_stats=1 \
+    -artifact_prefix="$1/$name-" "${folders[@]}" >"$1/$name.log" 2>&1 || touch "$1/$name.failed"
+}
+export -f run_fuzzer
+
+# All of them, one on each core.
+run_fuzzers() { # FOLDER
+  local status=0 name
+  find "$1" -maxdepth 1 -name '*_fuzz' -type f | sort |
+    xargs -P "$jobs" -L 1 bash -c 'run_fuzzer "$0" "$@"' "$results" "$fuzz_seconds"
+  for program in "$1"/*_fuzz; do
+    name=$(basename "$program")
+    if [ -f "$results/$name.failed" ] || ! grep -q 'Done ' "$results/$name.log"; then
+      count 0 1 0
+      tail -n 40 "$results/$name.log"
+      summaries+=("$name: found a fault, see $results/$name.log")
+      status=1
+    else
+      count 1 0 0
+      summaries+=("$name: $(grep -o 'Done .*' "$results/$name.log" | tail -n 1)")
+    fi
+  done
+  return "$status"
 }
 
 stage "Set-up"
@@ -166,8 +179,6 @@ ILLUM_BIN=$PWD/build/sanitize/tools/illum/illum run_pytest sanitized-cli \
   -n "$jobs" tests/cli/test_hostile_photographs.py tests/cli/test_hostile_objects.py
 
 stage "Fuzzers, $fuzz_seconds s each"
-for fuzzer in build/sanitize/tests/fuzz/*_fuzz; do
-  run_fuzzer "$fuzzer"
-done
+run_fuzzers build/sanitize/tests/fuzz
 
 stage "Done"

@@ -13,6 +13,7 @@
 #include "build/tile_writer.h"
 #include "build/view_writer.h"
 #include "core/memory.h"
+#include "core/stoppable_progress.h"
 #include "encode/object_writer.h"
 #include "illum/error.h"
 #include "illum/version.h"
@@ -42,27 +43,6 @@ Response responseFor(const BuildOptions& options, Transfer transfer) {
   }
   return display ? Response::Display : Response::Linear;
 }
-
-// Leaves a build that the user stopped; what is done is kept.
-struct BuildStopped {};
-
-// Looks, wherever progress is reported, whether the user wants to stop.
-class StoppableProgress final : public Progress {
- public:
-  StoppableProgress(Progress& inner, const std::function<bool()>& stop)
-      : inner_(inner), stop_(stop) {}
-  void begin(std::string_view what, std::uint64_t total) override { inner_.begin(what, total); }
-  void advance(std::uint64_t steps) override {
-    inner_.advance(steps);
-    if (stop_ && stop_()) throw BuildStopped();
-  }
-  void end() override { inner_.end(); }
-  void remark(std::string_view sentence) override { inner_.remark(sentence); }
-
- private:
-  Progress& inner_;
-  const std::function<bool()>& stop_;
-};
 
 void checkOptions(const BuildOptions& options) {
   if (options.holdout < 0) {
@@ -277,7 +257,7 @@ BuildReport buildObject(const Capture& source, const std::filesystem::path& out,
     const std::string text = textOf(manifest);
     writer.add(std::string(kManifestEntry), std::as_bytes(std::span(text)));
     report.bytes = writer.finish();
-  } catch (const BuildStopped&) {
+  } catch (const Stopped&) {
     writer.keepPartial();
     report.stopped = true;
   } catch (const Error& error) {

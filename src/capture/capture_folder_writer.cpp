@@ -8,6 +8,7 @@
 #include "core/files.h"
 #include "core/memory.h"
 #include "core/rename.h"
+#include "core/stoppable_progress.h"
 #include "illum/capture_folder.h"
 #include "illum/error.h"
 #include "illum/version.h"
@@ -21,9 +22,6 @@ namespace fs = std::filesystem;
 // Side of what one task reads at a time, under all lights of a batch.
 constexpr int kPatchSide = 32;
 constexpr std::string_view kLightFileName = "lights.lp";
-
-// Leaves a capture that the user stopped.
-struct Stopped {};
 
 std::string pictureName(std::size_t light) {
   return fmt::format("light_{:04}.exr", light);
@@ -83,7 +81,7 @@ class NewFolder {
 class FolderWriter {
  public:
   FolderWriter(const Capture& capture, const fs::path& folder, const CaptureFolderOptions& options,
-               Progress& progress)
+               StoppableProgress& progress)
       : capture_(capture), folder_(folder), options_(options), progress_(progress) {}
 
   void write() {
@@ -111,11 +109,6 @@ class FolderWriter {
   }
 
  private:
-  void advance() {
-    progress_.advance();
-    if (options_.stop && options_.stop()) throw Stopped();
-  }
-
   void writePhotographs(int group, const fs::path& folder) {
     const std::size_t lights = capture_.lights().size();
     // A picture stands in memory as samples, as a picture and as a file.
@@ -136,6 +129,7 @@ class FolderWriter {
     const int across = (size.width + kPatchSide - 1) / kPatchSide;
     const int down = (size.height + kPatchSide - 1) / kPatchSide;
     tbb::parallel_for(0, across * down, [&](int patch) {
+      progress_.check();
       const int x = patch % across * kPatchSide, y = patch / across * kPatchSide;
       const Rectangle rectangle{x, y, std::min(kPatchSide, size.width - x),
                                 std::min(kPatchSide, size.height - y)};
@@ -151,7 +145,7 @@ class FolderWriter {
       }
       pictures[i] = {};
     });
-    for (std::size_t i = 0; i < count; ++i) advance();
+    for (std::size_t i = 0; i < count; ++i) progress_.advance(1);
   }
 
   void readPatch(int group, const Rectangle& patch, const std::vector<int>& lights,
@@ -204,7 +198,7 @@ class FolderWriter {
   const Capture& capture_;
   const fs::path& folder_;
   const CaptureFolderOptions& options_;
-  Progress& progress_;
+  StoppableProgress& progress_;
 };
 
 }  // namespace
@@ -225,7 +219,8 @@ bool writeCaptureFolder(const Capture& capture, const fs::path& folder,
   if (filled.memoryBytes == 0) filled.memoryBytes = machineMemoryBytes() / 4;
   NewFolder target(folder, options.force);
   try {
-    FolderWriter(capture, target.path(), filled, progress).write();
+    StoppableProgress stoppable(progress, filled.stop);
+    FolderWriter(capture, target.path(), filled, stoppable).write();
   } catch (const Stopped&) {
     return false;
   }

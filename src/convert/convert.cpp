@@ -16,6 +16,7 @@
 #include "convert/new_view.h"
 #include "convert/view_plan.h"
 #include "core/memory.h"
+#include "core/stoppable_progress.h"
 #include "encode/encode_tile.h"
 #include "encode/object_writer.h"
 #include "illum/error.h"
@@ -44,7 +45,7 @@ void checkOptions(const ConvertOptions& options) {
 class Conversion {
  public:
   Conversion(const Object& source, const ConvertOptions& options, ObjectWriter& writer,
-             Progress& progress)
+             StoppableProgress& progress)
       : source_(source),
         old_(source.manifest()),
         options_(options),
@@ -54,8 +55,7 @@ class Conversion {
     plan();
   }
 
-  /// False if it was stopped.
-  bool run(ConvertReport& report);
+  void run(ConvertReport& report);
 
  private:
   void plan();
@@ -70,7 +70,7 @@ class Conversion {
   const Manifest& old_;
   const ConvertOptions& options_;
   ObjectWriter& writer_;
-  Progress& progress_;
+  StoppableProgress& progress_;
   std::uint64_t memoryBytes_;
   std::vector<PlannedView> views_;
   Manifest manifest_;
@@ -148,6 +148,7 @@ void Conversion::copyView(int stored, int group) {
         }
         if (old_.mask) copy(maskTileName);
         if (source_.hasDepth(stored)) copy(depthTileName);
+        if (level == 0) progress_.advance(grid.tileRectangle(0, x, y).pixels());
       });
     });
   }
@@ -156,7 +157,7 @@ void Conversion::copyView(int stored, int group) {
 NewViewMaker& Conversion::makerOf(const std::vector<int>& groups) {
   if (!maker_ || maker_->groups() != groups) {
     maker_.reset();
-    maker_ = std::make_unique<NewViewMaker>(source_, groups, memory_);
+    maker_ = std::make_unique<NewViewMaker>(source_, groups, memory_, progress_);
   }
   return *maker_;
 }
@@ -184,8 +185,10 @@ void Conversion::makeView(int group, LevelPyramid& pyramid, ConvertReport& repor
     pyramid.add(view.tileRow(manifest_, group, row));
 }
 
-bool Conversion::run(ConvertReport& report) {
-  progress_.begin("converting", views_.size());
+void Conversion::run(ConvertReport& report) {
+  std::uint64_t pixels = 0;
+  for (const PlannedView& view : views_) pixels += sizeOf(view.entry.view.geometry).pixels();
+  progress_.begin("converting", pixels);
   TileWriter tiles(manifest_, settings_, memory_.tilesCoded, writer_, progress_);
   LevelPyramid pyramid(manifest_, [&](const PlaneRow& row) { tiles.write(row); });
   for (std::size_t g = 0; g < views_.size(); ++g) {
@@ -197,8 +200,6 @@ bool Conversion::run(ConvertReport& report) {
       makeView(group, pyramid, report);
       ++report.newViews;
     }
-    progress_.advance();
-    if (options_.stop && options_.stop()) return false;
   }
   progress_.end();
   report.clippedSamples = tiles.samples().clipped;
@@ -211,7 +212,6 @@ bool Conversion::run(ConvertReport& report) {
     const std::string text = textOf(manifest_);
     writer_.add(std::string(kManifestEntry), std::as_bytes(std::span(text)));
   }
-  return true;
 }
 
 }  // namespace
@@ -224,8 +224,10 @@ ConvertReport convertObject(const Object& source, const std::filesystem::path& o
                       folder ? ObjectForm::Folder : ObjectForm::Archive, "convert", false,
                       options.force);
   ConvertReport report;
-  Conversion conversion(source, options, writer, progress);
-  if (!conversion.run(report)) {
+  StoppableProgress stoppable(progress, options.stop);
+  try {
+    Conversion(source, options, writer, stoppable).run(report);
+  } catch (const Stopped&) {
     report.stopped = true;
     return report;
   }

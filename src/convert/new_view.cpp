@@ -43,13 +43,15 @@ void decodeInto(const Object& object, int group, int x, int y, const Part& part,
   }
 }
 
-Picture planesOf(const Object& object, int group, const Part& part, int atOnce) {
+Picture planesOf(const Object& object, int group, const Part& part, int atOnce,
+                 const StoppableProgress& progress) {
   const TileGrid grid = object.manifest().grid(group);
   Picture picture(grid.size, part.count + 1);
   const int across = grid.tilesAcross(0);
   tbb::task_arena arena(atOnce);
   arena.execute([&] {
     tbb::parallel_for(0, across * grid.tilesDown(0), [&](int i) {
+      progress.check();
       decodeInto(object, group, i % across, i / across, part, picture);
     });
   });
@@ -59,8 +61,9 @@ Picture planesOf(const Object& object, int group, const Part& part, int atOnce) 
 }  // namespace
 
 NewViewMaker::NewViewMaker(const Object& object, std::vector<int> groups,
-                           const ConversionMemory& memory)
+                           const ConversionMemory& memory, const StoppableProgress& progress)
     : object_(object),
+      progress_(progress),
       groups_(std::move(groups)),
       planes_(object.basis(groups_.front()).planes()),
       planesAtOnce_(std::min(planes_, memory.planesAtOnce)),
@@ -71,9 +74,8 @@ void NewViewMaker::takePlanes(int first) {
   if (first == first_) return;
   first_ = first;
   const Part part{first, planesAtOnce_};
-  views_.setRelit([object = object_, part, atOnce = tilesDecoded_](int group) {
-    return planesOf(object, group, part, atOnce);
-  });
+  views_.setRelit([object = object_, part, atOnce = tilesDecoded_, &progress = progress_](
+                      int group) { return planesOf(object, group, part, atOnce, progress); });
 }
 
 void NewViewMaker::addPart(const SynthesisedView& seen, int first, NewView& view) const {
@@ -98,6 +100,7 @@ NewView NewViewMaker::make(const ViewGeometry& target, const SynthesisOptions& o
   view.values.resize(static_cast<std::size_t>(planes_) * pixels);
   view.coverage.resize(pixels);
   for (int first = 0; first < planes_; first += planesAtOnce_) {
+    progress_.check();
     takePlanes(first);
     const SynthesisedView seen = synthesise(views_, target, options);
     addPart(seen, first, view);

@@ -6,6 +6,7 @@
 
 #include "build/plane_row.h"
 #include "convert/memory_plan.h"
+#include "core/stoppable_progress.h"
 #include "illum/lumigraph.h"
 #include "illum/object.h"
 #include "lumigraph/object_views.h"
@@ -27,7 +28,9 @@ struct NewView {
 /// coverage.
 class NewViewMaker {
  public:
-  NewViewMaker(const Object& object, std::vector<int> groups, const ConversionMemory& memory);
+  /// `progress` must outlive it; it is asked whether to stop.
+  NewViewMaker(const Object& object, std::vector<int> groups, const ConversionMemory& memory,
+               const StoppableProgress& progress);
 
   const std::vector<int>& groups() const { return groups_; }
   NewView make(const ViewGeometry& target, const SynthesisOptions& options);
@@ -37,6 +40,7 @@ class NewViewMaker {
   void addPart(const SynthesisedView& seen, int first, NewView& view) const;
 
   Object object_;
+  const StoppableProgress& progress_;
   std::vector<int> groups_;
   int planes_, planesAtOnce_, tilesDecoded_;
   int first_ = -1;  ///< of the planes that views_ shows

@@ -154,3 +154,23 @@ def test_a_failed_build_leaves_the_old_object(illum, own_stack, built, tmp_path)
     (own_stack / "photo 05.png").write_bytes(b"")
     illum.refuses("build", own_stack, "-o", out, "--force", leaves=tmp_path)
     assert out.read_bytes() == built.read_bytes()
+
+
+@pytest.mark.parametrize("side, warned", [(2, False), (14, True)])
+def test_highlights_that_the_pilot_did_not_see(illum, tmp_path, side, warned):
+    """Planes are scaled by a part of the pixels. What is brighter elsewhere is clipped: a few
+    samples are told, more than one in 10 000 are warned of."""
+    width = height = 640  # so large that every other row of blocks of 16 is looked at
+    lights = list(stacks.directions(6))
+    noise = np.random.default_rng(1).integers(20, 30, (height, width, 3))
+    names = [f"photo {k}.png" for k in range(len(lights))]
+    for k, name in enumerate(names):
+        picture = (noise + 3 * k).astype(np.uint8)
+        picture[17:17 + side, 17:17 + side] = 255 if k % 2 else 0
+        Image.fromarray(picture).save(tmp_path / name)
+    stacks.write_light_file(tmp_path, names, lights)
+    outcome = illum("build", tmp_path, "-o", tmp_path / "o.illum", "--tile", 64)
+    said = "plane samples lay outside the quantiser's range and took its nearest end"
+    notes = [line for line in outcome.stderr.splitlines() if line.startswith("illum: note: ")]
+    assert any(said in line for line in notes) == warned, outcome
+    assert (said in outcome.stdout) != warned, outcome
