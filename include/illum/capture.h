@@ -24,6 +24,16 @@ enum class Transfer {
   Display,  ///< sRGB-encoded, in [0, 1] for a well-exposed picture
 };
 
+/// Samples that are bytes as they were stored, where all of a capture's are: b for b / 255. A
+/// quarter of the memory that floats take.
+class ByteSamples {
+ public:
+  virtual ~ByteSamples() = default;
+  /// As Capture::read.
+  virtual void readBytes(int group, const Rectangle& rectangle, std::span<const int> lights,
+                         std::span<std::uint8_t> samples) const = 0;
+};
+
 /// Samples under every light, as repeatable random access (group of views, rectangle) -> lights x
 /// pixels. Thread safe. Every view is a group of its own; a stack of photographs has one.
 class Capture {
@@ -52,6 +62,8 @@ class Capture {
   /// c. Unmasked (not premultiplied). Throws Error naming the photograph.
   virtual void read(int group, const Rectangle& rectangle, std::span<const int> lights,
                     std::span<float> samples) const = 0;
+  /// The same samples as bytes; null where they are not bytes. Lives as long as the capture.
+  virtual const ByteSamples* bytes() const { return nullptr; }
   /// Coverage in [0, 1], rectangle.pixels() values.
   virtual void readMask(int group, const Rectangle& rectangle, std::span<float> coverage) const = 0;
   /// Depth as camera.h's depthOf, rectangle.pixels() values; infinity where nothing is. Only where

@@ -13,7 +13,8 @@ namespace illum {
 namespace {
 
 constexpr int kBlockSide = 16;
-constexpr std::size_t kMaxPixels = 250000;
+// Small photographs are looked at whole; of large ones so many pixels tell no less.
+constexpr std::size_t kWholePixels = 250000, kMaxPixels = 100000;
 constexpr double kMaxMomentOperations = 1e11;  // about two seconds of one core
 
 // Of the pixels that are rendered, so many are rendered once more beforehand: enough to choose by,
@@ -125,8 +126,10 @@ std::size_t pilotPixels(const Capture& capture, std::uint64_t allPixels, int lig
   const double byCost = kMaxMomentOperations / (rows * rows);
   // Beside the samples stand the planes that are tried on them.
   const double byMemory = static_cast<double>(memoryBytes) / (2.0 * sizeof(float) * rows);
+  const bool whole = allPixels <= kWholePixels / pilots;
   double pixels =
-      std::min({static_cast<double>(kMaxPixels), byCost, byMemory}) / static_cast<double>(pilots);
+      std::min({static_cast<double>(whole ? kWholePixels : kMaxPixels), byCost, byMemory}) /
+      static_cast<double>(pilots);
   if (capture.isRendered()) {
     const double share = kRenderedShare * static_cast<double>(allPixels);
     pixels = std::min(pixels, std::max(kLeastRendered, share));

@@ -112,10 +112,11 @@ TEST(Pilot, NothingToSeeIsAnError) {
 TEST(Pilot, LittleIsRenderedTwice) {
   const Places photographs(1, {16, 16}, false), scene(1, {16, 16}, true);
   const std::uint64_t pixels = 1'000'000;
-  EXPECT_EQ(pilotPixels(photographs, pixels, 4, 1, std::uint64_t{1} << 32), 250'000u);
+  EXPECT_EQ(pilotPixels(photographs, pixels, 4, 1, std::uint64_t{1} << 32), 100'000u);
+  EXPECT_GE(pilotPixels(photographs, 240'000, 4, 1, std::uint64_t{1} << 32), 240'000u);
   EXPECT_EQ(pilotPixels(scene, pixels, 4, 1, std::uint64_t{1} << 32), pixels / 12);
   EXPECT_EQ(pilotPixels(scene, 20'000, 4, 1, std::uint64_t{1} << 32), 16'384u);
-  EXPECT_EQ(pilotPixels(photographs, pixels, 4, 5, std::uint64_t{1} << 32), 50'000u);
+  EXPECT_EQ(pilotPixels(photographs, pixels, 4, 5, std::uint64_t{1} << 32), 20'000u);
   EXPECT_EQ(pilotPixels(scene, 20'000, 4, 8, std::uint64_t{1} << 32), 16'384u)
       << "every frame is chosen for by itself";
 }

@@ -11,10 +11,10 @@
 namespace illum {
 namespace {
 
-// Pixels that are fitted at once: their samples under 60 lights as floats (360 kB) stay in the
-// second-level cache between reading and fitting, and rows are long enough for memory to be read in
-// order. Heights above 1 would only make patches larger.
-constexpr int kPatchWidth = 512, kPatchHeight = 1;
+// Pixels of a row that are fitted at once: their samples under 60 lights as floats (360 kB) stay in
+// the second-level cache between reading and fitting, and runs are long enough for memory to be
+// read in order.
+constexpr int kPatchWidth = 512;
 
 // Sizes `out` for a row of tiles. What was in it stays where it is not written.
 void beginRow(const Manifest& manifest, std::size_t planes, int group, int level, int row,
@@ -43,6 +43,7 @@ float medianDepth(std::array<float, 4> depths) {
 
 struct RowFitter::Scratch {
   std::vector<float> samples, planes, values;
+  std::vector<std::uint8_t> bytes;
 };
 
 struct RowFitter::State {
@@ -57,29 +58,44 @@ RowFitter::RowFitter(const Capture& capture, std::span<const int> lights,
       operators_(std::move(operators)),
       manifest_(manifest),
       progress_(progress),
-      state_(std::make_unique<State>()) {}
+      state_(std::make_unique<State>()) {
+  const bool picks =
+      std::ranges::any_of(operators_, [](const PlaneOperator* op) { return !op->picks.empty(); });
+  if (capture.bytes() == nullptr || picks) return;
+  for (const PlaneOperator* op : operators_) byteOperators_.emplace_back(*op);
+}
 RowFitter::~RowFitter() = default;
 
-const PlaneOperator& RowFitter::operatorOf(int group) const {
-  const int basis = manifest_.groups[static_cast<std::size_t>(group)].basis;
-  return *operators_[static_cast<std::size_t>(basis)];
+std::size_t RowFitter::basisOf(int group) const {
+  return static_cast<std::size_t>(manifest_.groups[static_cast<std::size_t>(group)].basis);
 }
 
-// Fits one patch (in picture coordinates) into the row of tiles that begins at picture row `top`.
+// The planes of one patch, into the scratch.
+void RowFitter::readPlanes(const Rectangle& patch, Scratch& scratch) const {
+  const std::size_t pixels = patch.pixels(), samples = 3 * lights_.size() * pixels;
+  const std::size_t basis = basisOf(row_.group);
+  scratch.planes.resize(static_cast<std::size_t>(operators_[basis]->planes) * pixels);
+  if (byteOperators_.empty()) {
+    scratch.samples.resize(samples);
+    capture_.read(row_.group, patch, lights_, scratch.samples);
+    operators_[basis]->apply(scratch.samples, pixels, scratch.planes);
+  } else {
+    scratch.bytes.resize(samples);
+    capture_.bytes()->readBytes(row_.group, patch, lights_, scratch.bytes);
+    byteOperators_[basis].apply(scratch.bytes, pixels, scratch.planes);
+  }
+}
+
+// Fits one patch, a part of a row (in picture coordinates), into the row of tiles that begins at
+// picture row `top`.
 void RowFitter::fitPatch(const Rectangle& patch, int top, Scratch& scratch) {
-  const PlaneOperator& toPlanes = operatorOf(row_.group);
-  const std::size_t pixels = patch.pixels(), planes = static_cast<std::size_t>(toPlanes.planes);
-  scratch.samples.resize(3 * lights_.size() * pixels);
-  scratch.planes.resize(planes * pixels);
-  capture_.read(row_.group, patch, lights_, scratch.samples);
-  toPlanes.apply(scratch.samples, pixels, scratch.planes);
+  readPlanes(patch, scratch);
+  const std::size_t pixels = patch.pixels(), planes = scratch.planes.size() / pixels;
+  const auto at =
+      static_cast<std::size_t>(patch.y - top) * static_cast<std::size_t>(row_.size.width) +
+      static_cast<std::size_t>(patch.x);
   const auto store = [&](const float* from, float* plane) {
-    for (int y = 0; y < patch.height; ++y, from += patch.width) {
-      const auto at =
-          static_cast<std::size_t>(patch.y - top + y) * static_cast<std::size_t>(row_.size.width) +
-          static_cast<std::size_t>(patch.x);
-      std::copy_n(from, patch.width, plane + at);
-    }
+    std::copy_n(from, pixels, plane + at);
   };
   for (std::size_t k = 0; k < planes; ++k) {
     store(scratch.planes.data() + k * pixels, row_.values.data() + k * row_.size.pixels());
@@ -97,18 +113,17 @@ void RowFitter::fitPatch(const Rectangle& patch, int top, Scratch& scratch) {
 }
 
 const PlaneRow& RowFitter::fit(int group, int row) {
-  beginRow(manifest_, static_cast<std::size_t>(operatorOf(group).planes), group, 0, row, row_);
+  beginRow(manifest_, static_cast<std::size_t>(operators_[basisOf(group)]->planes), group, 0, row,
+           row_);
   const int top = row * manifest_.tile, bottom = top + row_.size.height;
   const int across = (row_.size.width + kPatchWidth - 1) / kPatchWidth;
   for (int y = top; y < bottom;) {
     // Never across the border of two bands: a sequential capture would have to go back.
     const int bandEnd = (y / capture_.bandRows() + 1) * capture_.bandRows();
     const int end = std::min(bottom, bandEnd);
-    const int down = (end - y + kPatchHeight - 1) / kPatchHeight;
-    tbb::parallel_for(0, across * down, [&](int i) {
-      const int px = i % across * kPatchWidth, py = y + i / across * kPatchHeight;
-      const Rectangle patch{px, py, std::min(kPatchWidth, row_.size.width - px),
-                            std::min(kPatchHeight, end - py)};
+    tbb::parallel_for(0, across * (end - y), [&](int i) {
+      const int x = i % across * kPatchWidth;
+      const Rectangle patch{x, y + i / across, std::min(kPatchWidth, row_.size.width - x), 1};
       fitPatch(patch, top, state_->scratches.local());
     });
     y = end;

@@ -6,6 +6,8 @@
 #include <span>
 #include <vector>
 
+#include "core/unset_vector.h"
+#include "fit/byte_planes.h"
 #include "fit/fit.h"
 #include "illum/capture.h"
 #include "object/manifest.h"
@@ -17,7 +19,7 @@ namespace illum {
 struct PlaneRow {
   int group = 0, level = 0, row = 0;
   Size size;
-  std::vector<float> values;
+  UnsetVector<float> values;
   std::vector<float> coverage;  ///< empty without a mask
   std::vector<float> depth;     ///< infinity where nothing is; empty if the group has none
 };
@@ -41,12 +43,14 @@ class RowFitter {
  private:
   struct Scratch;
   struct State;
-  const PlaneOperator& operatorOf(int group) const;
+  std::size_t basisOf(int group) const;
+  void readPlanes(const Rectangle& patch, Scratch& scratch) const;
   void fitPatch(const Rectangle& patch, int top, Scratch& scratch);
 
   const Capture& capture_;
   std::span<const int> lights_;
   std::vector<const PlaneOperator*> operators_;
+  std::vector<BytePlanes> byteOperators_;  ///< of captures whose samples are bytes; else empty
   const Manifest& manifest_;
   Progress& progress_;
   PlaneRow row_;

@@ -27,6 +27,9 @@ class ResponseCapture final : public Capture {
       for (float& s : samples) s = displayFromLinear(s);
     }
   }
+  const ByteSamples* bytes() const override {
+    return transfer_ == inner_.transfer() ? inner_.bytes() : nullptr;
+  }
   void readMask(int group, const Rectangle& rectangle, std::span<float> coverage) const override {
     inner_.readMask(group, rectangle, coverage);
   }

@@ -1,12 +1,11 @@
 #include "build/tile_writer.h"
 
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
+#include <tbb/parallel_pipeline.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <vector>
+#include <memory>
 
 #include "build/fill.h"
 #include "build/quantiser.h"
@@ -24,7 +23,7 @@ std::uint16_t codeOf(const DepthRange& range, float depth) {
 }
 
 // The part of a row's array (count x row.size) that lies under a tile, as count x tile.
-std::vector<float> cut(std::span<const float> values, Size row, const Rectangle& tile) {
+std::vector<float> cutOut(std::span<const float> values, Size row, const Rectangle& tile) {
   const std::size_t count = values.size() / row.pixels();
   std::vector<float> out;
   out.reserve(count * tile.pixels());
@@ -47,55 +46,79 @@ std::uint64_t coderBytes(const CodingEntry& coding) {
 
 }  // namespace
 
-void TileWriter::write(const PlaneRow& row) {
-  // Nested parallelism inside a coder would let more than `atOnce` tiles live.
-  tbb::task_arena arena(atOnce_);
-  arena.execute([&] {
-    tbb::parallel_for(
-        0, manifest_.grid(row.group).tilesAcross(row.level),
-        [&](int x) {
-          writeTile(row, x);
-          if (manifest_.mask) writeMask(row, x);
-          if (!row.depth.empty()) writeDepth(row, x);
-          if (row.level > 0) return;
-          progress_.advance(manifest_.grid(row.group).tileRectangle(0, x, row.row).pixels());
-        },
-        tbb::simple_partitioner());
-  });
+CutTile TileWriter::cut(const PlaneRow& row, int x) const {
+  CutTile tile{row.group, row.level, x, row.row, {}, {}, {}};
+  const Rectangle place = manifest_.grid(row.group).tileRectangle(row.level, x, row.row);
+  tile.planes = cutOut(row.values, row.size, place);
+  if (manifest_.mask) tile.coverage = cutOut(row.coverage, row.size, place);
+  if (!row.depth.empty()) tile.depth = cutOut(row.depth, row.size, place);
+  return tile;
 }
 
-void TileWriter::writeTile(const PlaneRow& row, int x) {
-  const std::string name = planeTileName(manifest_, row.group, row.level, x, row.row);
+void TileWriter::write(CutTile tile) {
+  writePlanes(tile);
+  if (manifest_.mask) writeMask(tile);
+  if (!tile.depth.empty()) writeDepth(tile);
+  if (tile.level > 0) return;
+  progress_.advance(manifest_.grid(tile.group).tileRectangle(0, tile.x, tile.y).pixels());
+}
+
+void TileWriter::writePlanes(CutTile& tile) {
+  const std::string name = planeTileName(manifest_, tile.group, tile.level, tile.x, tile.y);
   if (writer_.has(name)) return;
-  const Rectangle tile = manifest_.grid(row.group).tileRectangle(row.level, x, row.row);
-  auto planes = cut(row.values, row.size, tile);
-  if (manifest_.mask) fillHidden(planes, cut(row.coverage, row.size, tile), tile.size());
+  const Size size = sizeOfTile(tile);
+  if (manifest_.mask) fillHidden(tile.planes, tile.coverage, size);
   std::uint64_t clipped = 0;
-  const CodingEntry& coding = manifest_.coding(row.group);
-  const auto codes = quantise(coding, planes, tile.size(), clipped);
-  samples_ += planes.size();
+  const CodingEntry& coding = manifest_.coding(tile.group);
+  const auto codes = quantise(coding, tile.planes, size, clipped);
+  samples_ += tile.planes.size();
   clipped_ += clipped;
   writer_.add(name, encodeTile(codes, coding.coding, coding.bits, settings_));
 }
 
-void TileWriter::writeMask(const PlaneRow& row, int x) {
-  const std::string name = maskTileName(manifest_, row.group, row.level, x, row.row);
+void TileWriter::writeMask(const CutTile& tile) {
+  const std::string name = maskTileName(manifest_, tile.group, tile.level, tile.x, tile.y);
   if (writer_.has(name)) return;
-  const Rectangle tile = manifest_.grid(row.group).tileRectangle(row.level, x, row.row);
-  const auto coverage = cut(row.coverage, row.size, tile);
-  BytePicture picture(tile.size(), 1);
-  std::transform(coverage.begin(), coverage.end(), picture.samples().begin(), byteFromUnit);
+  BytePicture picture(sizeOfTile(tile), 1);
+  std::ranges::transform(tile.coverage, picture.samples().begin(), byteFromUnit);
   writer_.add(name, encodeMaskTile(picture));
 }
 
-void TileWriter::writeDepth(const PlaneRow& row, int x) {
-  const std::string name = depthTileName(manifest_, row.group, row.level, x, row.row);
+void TileWriter::writeDepth(const CutTile& tile) {
+  const std::string name = depthTileName(manifest_, tile.group, tile.level, tile.x, tile.y);
   if (writer_.has(name)) return;
-  const Rectangle tile = manifest_.grid(row.group).tileRectangle(row.level, x, row.row);
-  const DepthRange& range = *manifest_.groups[static_cast<std::size_t>(row.group)].depth;
+  const DepthRange& range = *manifest_.groups[static_cast<std::size_t>(tile.group)].depth;
   std::vector<std::uint16_t> codes;
-  for (const float depth : cut(row.depth, row.size, tile)) codes.push_back(codeOf(range, depth));
-  writer_.add(name, encodeDepthTile(codes, tile.size(), range.steps));
+  for (const float depth : tile.depth) codes.push_back(codeOf(range, depth));
+  writer_.add(name, encodeDepthTile(codes, sizeOfTile(tile), range.steps));
+}
+
+void TileQueue::add(const PlaneRow& row) {
+  for (int x = 0; x < manifest_.grid(row.group).tilesAcross(row.level); ++x)
+    places_.emplace_back(&row, x);
+}
+
+CutTile TileQueue::next(const TileWriter& writer) {
+  const auto [row, x] = places_.front();
+  places_.pop_front();
+  return writer.cut(*row, x);
+}
+
+void writeTiles(TileWriter& writer, int atOnce,
+                const std::function<std::optional<CutTile>()>& next) {
+  using Token = std::shared_ptr<CutTile>;
+  tbb::parallel_pipeline(
+      static_cast<std::size_t>(atOnce),
+      tbb::make_filter<void, Token>(tbb::filter_mode::serial_in_order,
+                                    [&](tbb::flow_control& flow) -> Token {
+                                      std::optional<CutTile> tile = next();
+                                      if (tile) return std::make_shared<CutTile>(std::move(*tile));
+                                      flow.stop();
+                                      return nullptr;
+                                    }) &
+          tbb::make_filter<Token, void>(tbb::filter_mode::parallel, [&](const Token& tile) {
+            writer.write(std::move(*tile));
+          }));
 }
 
 std::uint64_t tileCodingBytes(const Manifest& manifest, std::span<const int> planesOfBases) {

@@ -41,30 +41,42 @@ ViewWriter::ViewWriter(const Capture& capture, const LightChoice& lights, const 
       manifest_(manifest),
       writer_(writer),
       progress_(progress),
+      atOnce_(atOnce),
       poster_(posterGroup(capture.views())),
-      tiles_(manifest, settings, atOnce, writer, progress),
+      tiles_(manifest, settings, writer, progress),
+      queue_(manifest),
       pyramid_(manifest, [this](const PlaneRow& row) { take(row); }),
       fitter_(capture, lights.used, operatorsOf(plan), manifest, progress) {}
 
 SampleCounts ViewWriter::writeAll() {
   chooseDepths();
-  std::vector<int> left;
   std::uint64_t pixels = 0;
   for (int group = 0; group < capture_.groups(); ++group) {
     if (isFinished(group)) continue;
-    left.push_back(group);
+    left_.push_back(group);
     pixels += capture_.size(group).pixels();
   }
   // Every pixel is fitted once and coded once.
   progress_.begin(
       capture_.isRendered() ? "rendering, fitting and coding" : "fitting and coding tiles",
       2 * pixels);
-  for (const int group : left) {
-    for (int row = 0; row < manifest_.grid(group).tilesDown(0); ++row)
-      pyramid_.add(fitter_.fit(group, row));
-  }
+  writeTiles(tiles_, atOnce_, [this] { return nextTile(); });
   progress_.end();
   return tiles_.samples();
+}
+
+// Fits a row when the tiles of those before are on their way to be coded. Nothing at the end.
+std::optional<CutTile> ViewWriter::nextTile() {
+  if (queue_.empty()) {
+    if (left_.empty()) return std::nullopt;
+    const int group = left_.front();
+    pyramid_.add(fitter_.fit(group, nextRow_));
+    if (++nextRow_ == manifest_.grid(group).tilesDown(0)) {
+      left_.pop_front();
+      nextRow_ = 0;
+    }
+  }
+  return queue_.next(tiles_);
 }
 
 // Before any tile, for the manifest speaks of the depths of finished views too.
@@ -89,7 +101,7 @@ bool ViewWriter::isFinished(int group) const {
 }
 
 void ViewWriter::take(const PlaneRow& row) {
-  tiles_.write(row);
+  queue_.add(row);
   if (row.group != poster_ || row.level + 1 < manifest_.grid(row.group).levels()) return;
   const int index = manifest_.groups[static_cast<std::size_t>(row.group)].basis;
   const PlannedBasis& basis = plan_.bases[static_cast<std::size_t>(index)];

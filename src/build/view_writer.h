@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cstdint>
+#include <deque>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -30,6 +32,7 @@ class ViewWriter {
  private:
   void chooseDepths();
   bool isFinished(int group) const;
+  std::optional<CutTile> nextTile();
   void take(const PlaneRow& row);
 
   const Capture& capture_;
@@ -37,8 +40,12 @@ class ViewWriter {
   Manifest& manifest_;
   ObjectWriter& writer_;
   Progress& progress_;
-  int poster_;  // the group that is shown of the object
+  int atOnce_;
+  int poster_;            // the group that is shown of the object
+  std::deque<int> left_;  // groups that are not written yet
+  int nextRow_ = 0;       // of the first of them
   TileWriter tiles_;
+  TileQueue queue_;
   LevelPyramid pyramid_;
   RowFitter fitter_;
 };

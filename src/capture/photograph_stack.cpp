@@ -40,7 +40,7 @@ void fetch(const PixelRun& run, std::size_t pixels) {
   for (std::ptrdiff_t at = 0; at < bytes; at += kCacheLine) hwy::Prefetch(run.first + at);
 }
 
-class PhotographStack final : public Capture {
+class PhotographStack final : public Capture, private ByteSamples {
  public:
   PhotographStack(StackParts parts, Progress& progress);
 
@@ -50,12 +50,19 @@ class PhotographStack final : public Capture {
   bool hasMask() const override { return !parts_.mask.empty() || hasAlpha_; }
   void read(int group, const Rectangle& rectangle, std::span<const int> lights,
             std::span<float> samples) const override;
+  const ByteSamples* bytes() const override { return areBytes_ ? this : nullptr; }
   void readMask(int group, const Rectangle& rectangle, std::span<float> coverage) const override;
   int bandRows() const override { return parts_.plan.rows / parts_.region.shrink; }
   std::uint64_t residentBytes() const override { return parts_.plan.residentBytes; }
   std::string fingerprint() const override;
 
  private:
+  void readBytes(int group, const Rectangle& rectangle, std::span<const int> lights,
+                 std::span<std::uint8_t> samples) const override;
+  // Calls `row(pin, light, y, rgb)` for each row of each light, `rgb` where its samples go.
+  template <typename T, typename Row>
+  void eachRow(const Rectangle& rectangle, std::span<const int> lights, std::span<T> samples,
+               Row row) const;
   // Calls `rows(pin, first, end)` for each band that the rectangle touches; rows of the capture.
   template <typename Rows>
   void eachBand(const Rectangle& rectangle, Rows rows) const;
@@ -77,7 +84,7 @@ class PhotographStack final : public Capture {
   std::unique_ptr<BandStore> store_;
   std::vector<RowConverter> converters_;
   Transfer transfer_ = Transfer::Display;
-  bool hasAlpha_ = false;
+  bool hasAlpha_ = false, areBytes_ = false;
   mutable tbb::collaborative_once_flag described_;
   mutable std::string fingerprint_;
 };
@@ -93,6 +100,8 @@ PhotographStack::PhotographStack(StackParts parts, Progress& progress)
     converters_.emplace_back(photograph.colour.type, photograph.header.channels(), transfer_,
                              parts_.lights[i].light.intensity);
   }
+  areBytes_ =
+      parts_.region.shrink == 1 && std::ranges::all_of(converters_, &RowConverter::isPlainBytes);
   store_ = std::make_unique<BandStore>(*parts_.pool, parts_.photographs, parts_.top, parts_.rows,
                                        parts_.plan, parts_.scratch, progress);
 }
@@ -110,10 +119,11 @@ void PhotographStack::eachBand(const Rectangle& rectangle, Rows rows) const {
   }
 }
 
-void PhotographStack::read([[maybe_unused]] int group, const Rectangle& rectangle,
-                           std::span<const int> lights, std::span<float> samples) const {
+template <typename T, typename Row>
+void PhotographStack::eachRow(const Rectangle& rectangle, std::span<const int> lights,
+                              std::span<T> samples, Row row) const {
   const std::size_t pixels = rectangle.pixels();
-  assert(group == 0 && samples.size() >= 3 * lights.size() * pixels);
+  assert(samples.size() >= 3 * lights.size() * pixels);
   const auto width = static_cast<std::size_t>(rectangle.width);
   eachBand(rectangle, [&](const BandStore::Pin& pin, int first, int end) {
     for (std::size_t l = 0; l < lights.size(); ++l) {
@@ -123,13 +133,35 @@ void PhotographStack::read([[maybe_unused]] int group, const Rectangle& rectangl
           fetch(runAt(pin, next, rectangle.x, y * parts_.region.shrink),
                 width * static_cast<std::size_t>(parts_.region.shrink));
         }
-        float* row =
-            samples.data() + 3 * l * pixels + static_cast<std::size_t>(y - rectangle.y) * width;
-        const std::array<float*, 3> rgb{row, row + pixels, row + 2 * pixels};
-        readRow(pin, static_cast<std::size_t>(lights[l]), rectangle.x, y, width, rgb);
+        T* to = samples.data() + 3 * l * pixels + static_cast<std::size_t>(y - rectangle.y) * width;
+        row(pin, static_cast<std::size_t>(lights[l]), y,
+            std::array<T*, 3>{to, to + pixels, to + 2 * pixels});
       }
     }
   });
+}
+
+void PhotographStack::read([[maybe_unused]] int group, const Rectangle& rectangle,
+                           std::span<const int> lights, std::span<float> samples) const {
+  assert(group == 0);
+  const auto width = static_cast<std::size_t>(rectangle.width);
+  eachRow(rectangle, lights, samples,
+          [&](const BandStore::Pin& pin, std::size_t light, int y, std::array<float*, 3> rgb) {
+            readRow(pin, light, rectangle.x, y, width, rgb);
+          });
+}
+
+void PhotographStack::readBytes([[maybe_unused]] int group, const Rectangle& rectangle,
+                                std::span<const int> lights,
+                                std::span<std::uint8_t> samples) const {
+  assert(group == 0 && areBytes_);
+  const auto width = static_cast<std::size_t>(rectangle.width);
+  eachRow(
+      rectangle, lights, samples,
+      [&](const BandStore::Pin& pin, std::size_t light, int y, std::array<std::uint8_t*, 3> rgb) {
+        const PixelRun run = runAt(pin, light, rectangle.x, y);
+        converters_[light].toBytes(run.first, run.step, width, rgb);
+      });
 }
 
 void PhotographStack::readRow(const BandStore::Pin& pin, std::size_t light, int x, int y,

@@ -278,6 +278,22 @@ TEST_F(PhotographsTest, IntensitiesDivideLinearLight) {
   }
 }
 
+// What test::readAll gets as bytes it compares with what it gets as floats.
+TEST_F(PhotographsTest, BytesAreGivenWhereAllAreBytesAsTheyAre) {
+  addSeveral(2, ".png");
+  writeLights();
+  EXPECT_NE(open()->bytes(), nullptr);
+  PhotographOptions half;
+  half.shrink = 2;
+  EXPECT_EQ(openPhotographs(folder_.path(), half, listener_)->bytes(), nullptr);
+  folder_.writeText("lights.lp", "photo0.png 0 0 1 1\nphoto1.png 1 0 1 0.5\n");
+  EXPECT_EQ(open()->bytes(), nullptr);
+  writeLights();
+  add("words.png", test::sketch(1, {23, 17}, 3, Word));
+  writeLights();
+  EXPECT_EQ(open()->bytes(), nullptr);
+}
+
 TEST_F(PhotographsTest, IntensityFileOfTheFolderCounts) {
   addSeveral(2, ".exr", {23, 17}, 3, Float);
   writeLights();

@@ -54,6 +54,19 @@ inline float oneFloat(float sample) {
   return sample;
 }
 
+// One vector of each colour.
+template <class D, typename T, class V = hn::Vec<D>>
+HWY_INLINE void loadColours(D d, const T* samples, int channels, V& r, V& g, V& b) {
+  if (channels == 1) {
+    r = g = b = hn::LoadU(d, samples);
+  } else if (channels == 3) {
+    hn::LoadInterleaved3(d, samples, r, g, b);
+  } else {
+    auto fourth = hn::Zero(d);
+    hn::LoadInterleaved4(d, samples, r, g, b, fourth);
+  }
+}
+
 // Whole vectors of samples are taken apart, for that costs the same however short they are; then
 // each becomes several vectors of floats.
 template <typename T>
@@ -68,14 +81,8 @@ void planar(const T* HWY_RESTRICT samples, int channels, std::size_t count, floa
   const std::array<float*, 3> out{r, g, b};
   std::size_t i = 0;
   for (; i + run <= count; i += run) {
-    auto first = hn::Zero(whole), second = first, third = first, fourth = first;
-    if (channels == 1) {
-      first = second = third = hn::LoadU(whole, samples + i);
-    } else if (channels == 3) {
-      hn::LoadInterleaved3(whole, samples + i * stride, first, second, third);
-    } else {
-      hn::LoadInterleaved4(whole, samples + i * stride, first, second, third, fourth);
-    }
+    auto first = hn::Zero(whole), second = first, third = first;
+    loadColours(whole, samples + i * stride, channels, first, second, third);
     hn::Store(first, whole, apart[0].data());
     hn::Store(second, whole, apart[1].data());
     hn::Store(third, whole, apart[2].data());
@@ -89,6 +96,27 @@ void planar(const T* HWY_RESTRICT samples, int channels, std::size_t count, floa
     r[i] = oneFloat(pixel[0]);
     g[i] = oneFloat(pixel[channels == 1 ? 0 : 1]);
     b[i] = oneFloat(pixel[channels == 1 ? 0 : 2]);
+  }
+}
+
+void apartBytes(const std::uint8_t* HWY_RESTRICT samples, int channels, std::size_t count,
+                std::uint8_t* HWY_RESTRICT r, std::uint8_t* HWY_RESTRICT g,
+                std::uint8_t* HWY_RESTRICT b) {
+  const hn::ScalableTag<std::uint8_t> d;
+  const auto stride = static_cast<std::size_t>(channels);
+  std::size_t i = 0;
+  for (; i + hn::Lanes(d) <= count; i += hn::Lanes(d)) {
+    auto first = hn::Zero(d), second = first, third = first;
+    loadColours(d, samples + i * stride, channels, first, second, third);
+    hn::StoreU(first, d, r + i);
+    hn::StoreU(second, d, g + i);
+    hn::StoreU(third, d, b + i);
+  }
+  for (; i < count; ++i) {
+    const std::uint8_t* pixel = samples + i * stride;
+    r[i] = pixel[0];
+    g[i] = pixel[channels == 1 ? 0 : 1];
+    b[i] = pixel[channels == 1 ? 0 : 2];
   }
 }
 
@@ -112,6 +140,7 @@ HWY_AFTER_NAMESPACE();
 namespace illum {
 
 HWY_EXPORT(planarBytes);
+HWY_EXPORT(apartBytes);
 HWY_EXPORT(planarWords);
 HWY_EXPORT(planarFloats);
 
@@ -128,6 +157,11 @@ void planarFromWords(const std::uint16_t* samples, int channels, std::size_t cou
 void planarFromFloats(const float* samples, int channels, std::size_t count, float* r, float* g,
                       float* b) {
   HWY_DYNAMIC_DISPATCH(planarFloats)(samples, channels, count, r, g, b);
+}
+
+void separateBytes(const std::uint8_t* samples, int channels, std::size_t count, std::uint8_t* r,
+                   std::uint8_t* g, std::uint8_t* b) {
+  HWY_DYNAMIC_DISPATCH(apartBytes)(samples, channels, count, r, g, b);
 }
 
 // All bits of the exponent set means infinite or not a number. Compilers vectorise this by

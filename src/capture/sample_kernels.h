@@ -16,6 +16,10 @@ void planarFromWords(const std::uint16_t* samples, int channels, std::size_t cou
 void planarFromFloats(const float* samples, int channels, std::size_t count, float* r, float* g,
                       float* b);
 
+/// The same into three rows of bytes, as they are.
+void separateBytes(const std::uint8_t* samples, int channels, std::size_t count, std::uint8_t* r,
+                   std::uint8_t* g, std::uint8_t* b);
+
 /// Whether all are finite.
 bool allFinite(const float* samples, std::size_t count);
 

@@ -127,6 +127,16 @@ void RowConverter::toTransfer(const std::byte* first, std::ptrdiff_t step, std::
   }
 }
 
+void RowConverter::toBytes(const std::byte* first, std::ptrdiff_t step, std::size_t count,
+                           std::span<std::uint8_t* const, 3> rgb) const {
+  const auto* samples = reinterpret_cast<const std::uint8_t*>(first);
+  if (channels_ != 2 && step == channels_)
+    return separateBytes(samples, channels_, count, rgb[0], rgb[1], rgb[2]);
+  for (std::size_t i = 0; i < count; ++i, samples += step) {
+    for (std::size_t c = 0; c < 3; ++c) rgb[c][i] = samples[channels_ >= 3 ? c : 0];
+  }
+}
+
 void RowConverter::toLinear(const std::byte* first, std::ptrdiff_t step, std::size_t count,
                             std::span<float* const, 3> rgb) const {
   if (type_ == SampleType::Byte) {

@@ -27,6 +27,12 @@ class RowConverter {
   void toTransfer(const std::byte* first, std::ptrdiff_t step, std::size_t count,
                   std::span<float* const, 3> rgb) const;
 
+  /// Whether samples are bytes that only change their type.
+  bool isPlainBytes() const { return plain_ && type_ == SampleType::Byte; }
+  /// The same as toTransfer, as bytes; where isPlainBytes().
+  void toBytes(const std::byte* first, std::ptrdiff_t step, std::size_t count,
+               std::span<std::uint8_t* const, 3> rgb) const;
+
   /// The same, always in linear light.
   void toLinear(const std::byte* first, std::ptrdiff_t step, std::size_t count,
                 std::span<float* const, 3> rgb) const;

@@ -2,6 +2,7 @@
 
 #include <OpenImageIO/imageio.h>
 #include <OpenImageIO/strutil.h>
+#include <gtest/gtest.h>
 #include <lcms2.h>
 #include <png.h>
 #include <unistd.h>
@@ -282,6 +283,11 @@ std::vector<float> readAll(const Capture& capture, const Rectangle& rectangle) {
   std::iota(lights.begin(), lights.end(), 0);
   std::vector<float> samples(3 * lights.size() * rectangle.pixels(), -1000.0f);
   capture.read(0, rectangle, lights, samples);
+  if (capture.bytes() == nullptr) return samples;
+  std::vector<std::uint8_t> bytes(samples.size());
+  capture.bytes()->readBytes(0, rectangle, lights, bytes);
+  for (std::size_t i = 0; i < bytes.size(); ++i)
+    EXPECT_EQ(static_cast<float>(bytes[i]) / 255, samples[i]) << "sample " << i;
   return samples;
 }
 

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <utility>
 
 #include "build/depth_range.h"
@@ -189,8 +190,15 @@ void Conversion::run(ConvertReport& report) {
   std::uint64_t pixels = 0;
   for (const PlannedView& view : views_) pixels += sizeOf(view.entry.view.geometry).pixels();
   progress_.begin("converting", pixels);
-  TileWriter tiles(manifest_, settings_, memory_.tilesCoded, writer_, progress_);
-  LevelPyramid pyramid(manifest_, [&](const PlaneRow& row) { tiles.write(row); });
+  TileWriter tiles(manifest_, settings_, writer_, progress_);
+  TileQueue queue(manifest_);
+  LevelPyramid pyramid(manifest_, [&](const PlaneRow& row) {
+    queue.add(row);
+    writeTiles(tiles, memory_.tilesCoded, [&]() -> std::optional<CutTile> {
+      if (queue.empty()) return std::nullopt;
+      return queue.next(tiles);
+    });
+  });
   for (std::size_t g = 0; g < views_.size(); ++g) {
     const auto group = static_cast<int>(g);
     if (views_[g].stored) {

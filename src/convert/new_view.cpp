@@ -121,7 +121,7 @@ PlaneRow NewView::tileRow(const Manifest& manifest, int group, int row) const {
   out.row = row;
   out.size = {size.width, std::min(manifest.tile, size.height - row * manifest.tile)};
   const std::size_t first = Size{size.width, row * manifest.tile}.pixels();
-  const auto take = [&](std::span<const float> plane, std::vector<float>& to) {
+  const auto take = [&](std::span<const float> plane, auto& to) {
     const auto part = plane.subspan(first, out.size.pixels());
     to.insert(to.end(), part.begin(), part.end());
   };
