@@ -289,7 +289,7 @@ def test_info_tells_of_views_and_depth(illum, tmp_path):
     views = [{"turn": {"slabs": 3, "viewPoints": [2, 1], "longerSide": 24}}]
     illum("build", write_scene(tmp_path, views=views), "-o", tmp_path / "o.illum")
     text = illum("info", tmp_path / "o.illum").stdout
-    for word in ("6: 3 slabs turn_0 to turn_2 of 2 x 1 each", "3 bases", "depth"):
+    for word in ("6: 3 slabs 'turn_0' to 'turn_2' of 2 x 1 each", "3 bases", "depth"):
         assert word in text, text
     info = info_of(illum, tmp_path / "o.illum")
     assert [slab["name"] for slab in info["slabs"]] == ["turn_0", "turn_1", "turn_2"]
@@ -301,5 +301,5 @@ def test_info_tells_mixed_views_apart(illum, tmp_path):
     info = info_of(illum, tmp_path / "o.illum")
     assert info["viewsOfKind"] == {"slab": 4, "camera": 1, "panorama": 1} and not info["oneSize"]
     text = illum("info", tmp_path / "o.illum").stdout
-    for word in ("mixed (4 slab, 1 camera, 1 panorama)", "sizes differ", "6: slab slab of 2 x 2"):
+    for word in ("mixed (4 slab, 1 camera, 1 panorama)", "sizes differ", "6: slab 'slab' of 2 x 2"):
         assert word in text, text

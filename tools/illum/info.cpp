@@ -115,7 +115,7 @@ nlohmann::ordered_json describe(const Object& object) {
 }
 
 // Slabs side by side with as many view points each, such as those of a turn, take one word:
-// "slabs turn_0 to turn_7 of 3 x 2 each".
+// "8 slabs 'turn_0' to 'turn_7' of 3 x 2 each".
 std::string textOfSlabs(const nlohmann::ordered_json& slabs) {
   const auto same = [](const auto& a, const auto& b) {
     return a["columns"] == b["columns"] && a["rows"] == b["rows"];
@@ -127,8 +127,8 @@ std::string textOfSlabs(const nlohmann::ordered_json& slabs) {
     const auto points =
         fmt::format("{} x {}", slabs[first]["columns"].get<int>(), slabs[first]["rows"].get<int>());
     text += first == 0 ? ": " : ", ";
-    text += end == first + 1 ? fmt::format("slab {} of {}", name, points)
-                             : fmt::format("{} slabs {} to {} of {} each", end - first, name,
+    text += end == first + 1 ? fmt::format("slab '{}' of {}", name, points)
+                             : fmt::format("{} slabs '{}' to '{}' of {} each", end - first, name,
                                            slabs[end - 1]["name"].get<std::string>(), points);
   }
   return text;
