@@ -3,7 +3,7 @@
 #
 #   gallery.sh [SCENE…]      all of them, if none is named; near_light: two lights of the box
 #
-# Objects are kept in out/gallery/. They have 3 x 3 view points instead of the scenes' 5 x 5.
+# Objects are kept in out/gallery/.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -31,7 +31,7 @@ for scene in "${scenes[@]}"; do
     near_light
     continue
   fi
-  [ -e "$out/$scene.illum" ] || "$illum" build "builtin:$scene" -o "$out/$scene.illum" --uv 3x3
+  [ -e "$out/$scene.illum" ] || "$illum" build "builtin:$scene" -o "$out/$scene.illum"
   views=(0,0.5 0.75,0.75)
   [ "$scene" != coin ] || views=() # one photograph
   ILLUM=$illum scripts/relit_sheet.sh "$out/$scene.illum" "docs/gallery/$scene.jpg" 180 \
