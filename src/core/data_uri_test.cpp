@@ -41,9 +41,9 @@ TEST(DataUri, IsReadWithoutItsFillOrItsMediaType) {
 }
 
 TEST(DataUri, WhatIsNoneIsNotRead) {
-  for (const char* uri : {"", "data:", "data:a/b,Zm9v", "data:a/b;base64", "Zm9v", "data:;base64,Zm9vY",
-                          "data:;base64,Zm 9v", "data:;base64,Zg===", "data:;base64,Z=9v",
-                          "data:;base64,@@@@", "data:,;base64,Zm9v"})
+  for (const char* uri : {"", "data:", "data:a/b,Zm9v", "data:a/b;base64", "Zm9v",
+                          "data:;base64,Zm9vY", "data:;base64,Zm 9v", "data:;base64,Zg===",
+                          "data:;base64,Z=9v", "data:;base64,@@@@", "data:,;base64,Zm9v"})
     EXPECT_EQ(decoded(uri), std::nullopt) << uri;
 }
 

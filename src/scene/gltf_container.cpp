@@ -57,7 +57,8 @@ std::vector<std::byte> withJson(std::span<const std::byte> file, const GltfParts
     return out;
   }
   const auto word = [&](std::size_t value) {
-    for (int shift = 0; shift < 32; shift += 8) out.push_back(static_cast<std::byte>(value >> shift));
+    for (int shift = 0; shift < 32; shift += 8)
+      out.push_back(static_cast<std::byte>(value >> shift));
   };
   json.resize((json.size() + 3) / 4 * 4, ' ');
   const auto rest = file.subspan(kHeader + kChunkHeader + parts.json.size());

@@ -13,8 +13,12 @@ constexpr std::uint64_t kUnsignedByte = 5121, kUnsignedShort = 5123, kUnsignedIn
 
 /// 0: there is no such type.
 constexpr std::uint64_t bytesOfComponent(std::uint64_t type) {
-  constexpr std::array<std::pair<std::uint64_t, std::uint64_t>, 6> kBytes{
-      {{5120, 1}, {kUnsignedByte, 1}, {5122, 2}, {kUnsignedShort, 2}, {kUnsignedInt, 4}, {kFloat, 4}}};
+  constexpr std::array<std::pair<std::uint64_t, std::uint64_t>, 6> kBytes{{{5120, 1},
+                                                                           {kUnsignedByte, 1},
+                                                                           {5122, 2},
+                                                                           {kUnsignedShort, 2},
+                                                                           {kUnsignedInt, 4},
+                                                                           {kFloat, 4}}};
   for (const auto& [name, bytes] : kBytes)
     if (name == type) return bytes;
   return 0;

@@ -125,9 +125,8 @@ class TexcoordConverter {
     const auto copy = [&](const Elements& from, std::size_t element, std::size_t to) {
       const float whole = size == 1 ? 255 : 65535;
       for (std::size_t i = 0; i < 2; ++i)
-        values[2 * to + i] = static_cast<float>(wholeAt(
-                                 from.bytes, element * from.stride + i * size, size)) /
-                             whole;
+        values[2 * to + i] =
+            static_cast<float>(wholeAt(from.bytes, element * from.stride + i * size, size)) / whole;
     };
     if (accessor.contains("bufferView")) {
       const Elements from = elementsOf(accessor, 2 * size);
