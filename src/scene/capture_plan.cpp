@@ -128,6 +128,13 @@ CaptureSetup captureSetup(const CapturePlan& plan, const Scene& scene) {
   for (const ViewPlan& view : plan.views)
     std::visit([&](const auto& v) { addViews(v, scene, setup.views); }, view);
   if (setup.views.empty()) throw Error(Fault::Input, "expected at least one view, found none");
+  const bool photographed = std::ranges::any_of(setup.views, [](const View& view) {
+    return std::holds_alternative<OrthographicView>(view.geometry);
+  });
+  if (photographed && setup.views.size() > 1)
+    throw Error(Fault::Input,
+                fmt::format("expected a photograph to be the only view, found {} views",
+                            setup.views.size()));
   setup.lights = lightsOf(plan.lights);
   if (setup.lights.empty()) throw Error(Fault::Input, "expected at least one light, found none");
   setup.lightRadiusRadians = radiusOf(plan.lights, setup.lights);

@@ -226,6 +226,8 @@ BAD_FIELDS = {
     "a mirror image of a frame": ({"views": [{"slab": {"frame": {
         "rotation": [1, 0, 0, 0, 1, 0, 0, 0, -1]}}}]}, "frame"),
     "view points inside": ({"views": [{"slab": {"distance": 0.1}}]}, "distance"),
+    "a photograph beside others": ({"views": [SLAB, {"photograph": {"size": [32, 24]}}]},
+                                   "scene.json: expected a photograph to be the only view"),
     "two kinds of view": ({"views": [{"slab": {}, "turn": {}}]}, "views[0]"),
     "an empty window": ({"views": [{"slab": {"window": [1, 0, 1, 1]}}]}, "window"),
     "absurdly many pixels": ({"views": [{"slab": {"viewPoints": [1024, 1024],
