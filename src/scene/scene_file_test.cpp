@@ -55,7 +55,7 @@ TEST(SceneFile, ShapesMaterialsHairAndLightFile) {
     "meshes": [{"shape": "box", "material": "red", "scale": [1, 2, 3], "translate": [0, 5, 0]},
                {"shape": "sphere"}, {"shape": "teapot"}, {"shape": "rectangle"}],
     "hair": [{"file": "hair.txt", "material": "fur", "radius": [0.02, 0.01], "scale": 2}],
-    "views": [{"photograph": {"size": [30, 20]}}, {"camera": {"size": [16, 16]}}],
+    "views": [{"panorama": {"eye": [0, 0, 9], "size": [30, 15]}}, {"camera": {"size": [16, 16]}}],
     "lights": {"file": "l.lp"})"));
   RememberedRemarks remarks;
   const SceneCapture capture = readScene(file, {}, remarks);
