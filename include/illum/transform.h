@@ -12,9 +12,13 @@ struct RigidTransform {
   std::array<double, 9> rotation{1, 0, 0, 0, 1, 0, 0, 0, 1};
   Vector3 translation;
 
-  Vector3 point(Vector3 p) const;
+  Vector3 point(Vector3 p) const { return vector(p) + translation; }
   /// Without the translation: displacements and directions.
-  Vector3 vector(Vector3 v) const;
+  Vector3 vector(Vector3 v) const {
+    const std::array<double, 9>& m = rotation;
+    return {m[0] * v.x + m[1] * v.y + m[2] * v.z, m[3] * v.x + m[4] * v.y + m[5] * v.z,
+            m[6] * v.x + m[7] * v.y + m[8] * v.z};
+  }
   Direction direction(Direction d) const;
 
   friend bool operator==(const RigidTransform&, const RigidTransform&) = default;

@@ -2,6 +2,8 @@
 // (docs/conventions.md, "Frames").
 #pragma once
 
+#include <cmath>
+
 namespace illum {
 
 /// Any triple of coordinates: a displacement, or what a file said before it was checked.
@@ -14,9 +16,21 @@ struct Vector3 {
   friend bool operator==(const Vector3&, const Vector3&) = default;
 };
 
-double dot(Vector3 a, Vector3 b);
-Vector3 cross(Vector3 a, Vector3 b);
-double length(Vector3 a);
+inline double dot(Vector3 a, Vector3 b) {
+  return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+
+inline Vector3 cross(Vector3 a, Vector3 b) {
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+
+inline double length(Vector3 a) {
+  // hypot divides three times to keep squares clear of overflow and of denormals: only where need
+  // be.
+  constexpr double kLeast = 1e-280, kGreatest = 1e280;
+  const double squared = dot(a, a);
+  return squared > kLeast && squared < kGreatest ? std::sqrt(squared) : std::hypot(a.x, a.y, a.z);
+}
 
 /// A unit vector from the object *to* the light. Its length is 1 within rounding, always.
 class Direction {

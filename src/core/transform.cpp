@@ -11,29 +11,16 @@ std::array<double, 9> transposed(const std::array<double, 9>& m) {
   return {m[0], m[3], m[6], m[1], m[4], m[7], m[2], m[5], m[8]};
 }
 
-Vector3 product(const std::array<double, 9>& m, Vector3 v) {
-  return {m[0] * v.x + m[1] * v.y + m[2] * v.z, m[3] * v.x + m[4] * v.y + m[5] * v.z,
-          m[6] * v.x + m[7] * v.y + m[8] * v.z};
-}
-
 }  // namespace
 
-Vector3 RigidTransform::point(Vector3 p) const {
-  return product(rotation, p) + translation;
-}
-
-Vector3 RigidTransform::vector(Vector3 v) const {
-  return product(rotation, v);
-}
-
 Direction RigidTransform::direction(Direction d) const {
-  return Direction::fromVector(product(rotation, d.vector()));
+  return Direction::fromVector(vector(d.vector()));
 }
 
 RigidTransform inverse(const RigidTransform& aFromB) {
   RigidTransform bFromA;
   bFromA.rotation = transposed(aFromB.rotation);
-  bFromA.translation = -1.0 * product(bFromA.rotation, aFromB.translation);
+  bFromA.translation = -1.0 * bFromA.vector(aFromB.translation);
   return bFromA;
 }
 

@@ -10,22 +10,6 @@
 
 namespace illum {
 
-double dot(Vector3 a, Vector3 b) {
-  return a.x * b.x + a.y * b.y + a.z * b.z;
-}
-
-Vector3 cross(Vector3 a, Vector3 b) {
-  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
-
-double length(Vector3 a) {
-  // hypot divides three times to keep squares clear of overflow and of denormals: only where need
-  // be.
-  constexpr double kLeast = 1e-280, kGreatest = 1e280;
-  const double squared = dot(a, a);
-  return squared > kLeast && squared < kGreatest ? std::sqrt(squared) : std::hypot(a.x, a.y, a.z);
-}
-
 Direction Direction::fromVector(Vector3 v) {
   if (!std::isfinite(v.x) || !std::isfinite(v.y) || !std::isfinite(v.z))
     throw Error(

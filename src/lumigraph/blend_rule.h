@@ -24,7 +24,8 @@ struct SurfacePoints {
   std::size_t offset(int y) const { return static_cast<std::size_t>(y) * width(); }
 };
 
-/// Which views are asked: those that know best, or, where none of them sees a point, more.
+/// Which views are asked: those that know best, or, where none of them sees a point, more: of a
+/// slab, those around the nearest place from which the window shows the point.
 enum class Ring { Near, Wide };
 
 /// Of some of a source's views, counted here from 0. Const members are thread safe.
@@ -33,13 +34,18 @@ class BlendRule {
   virtual ~BlendRule() = default;
   /// Of view `view` for the pixels of row `y`; >= 0, in any unit that all views share.
   virtual void weights(int view, int y, Ring ring, std::span<float> weights) const = 0;
+  /// Takes next to no time. False: all weights of the row are 0; they may be where it is true.
+  virtual bool asks(int view, int y, Ring ring) const = 0;
+  /// Views that may know of surfaces which none of the near ring shows.
+  virtual std::vector<int> outposts() const { return {}; }
 };
 
 /// For views of one slab: each ray meets the uv plane somewhere; view points near it count, by the
 /// bilinear kernel (Levoy and Hanrahan 1996) or by an aperture (Isaksen et al. 2000). Rays that
-/// pass outside the grid of view points were not seen.
+/// pass outside the grid of view points were not seen. `points`, which the wide ring is for, may
+/// change; they outlive the rule.
 std::unique_ptr<BlendRule> slabBlend(const ViewProjector& target, std::span<const SlabView> views,
-                                     double apertureRadius);
+                                     const SurfacePoints& points, double apertureRadius);
 
 /// For views from anywhere: those that see a point from nearly the same direction, as finely, and
 /// well inside their frames count (Buehler et al. 2001, section 4). `points` is copied from.

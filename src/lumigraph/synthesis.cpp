@@ -81,6 +81,7 @@ class Synthesis {
     for (const int view : rig.views) views.push_back(&projectors_[static_cast<std::size_t>(view)]);
     return freeBlend(target_, views, points_, options_.blendedViews);
   }
+  const BlendRule& ruleOf(const Rig& rig) const { return rig.rule ? *rig.rule : *freeRule_; }
   const SlabView* slabView(int view) const {
     return std::get_if<SlabView>(&source_.views()[static_cast<std::size_t>(view)].geometry);
   }
@@ -92,6 +93,14 @@ class Synthesis {
   // Whether any ray of the target asks for the view.
   bool isAsked(const Rig& rig, int local, Ring ring) const;
   std::vector<int> drawnViews(const Rig& rig) const;
+  bool mayAsk(const Rig& rig, int local, int y, Ring ring) const {
+    return (ring == Ring::Near || rowsWantMore_[static_cast<std::size_t>(y)] != 0) &&
+           ruleOf(rig).asks(local, y, ring);
+  }
+  bool wantsMore(int x, int y) const {
+    return isKnown(points_.row(y)[static_cast<std::size_t>(x)]) &&
+           visibleShare(near_, x, y) < kEnoughVisible;
+  }
   // Of row y: 0 where nothing more is wanted of the ring.
   void wantedWeights(const Rig& rig, int local, int y, Ring ring, std::span<float> weights) const;
   float visibleShare(const Picture& sums, int x, int y) const {
@@ -109,8 +118,9 @@ class Synthesis {
   SurfacePoints points_;
   std::unique_ptr<BlendRule> freeRule_;  // of the rig that is no slab, at the points
   Picture near_, wide_;                  // sums; the second is empty where it was not needed
-  double nearestRange_ = 0;              // of the surface, from the target
-  const Picture* hidden_ = nullptr;      // depth of the target where the plane is not seen
+  std::vector<std::uint8_t> rowsWantMore_;
+  double nearestRange_ = 0;          // of the surface, from the target
+  const Picture* hidden_ = nullptr;  // depth of the target where the plane is not seen
 };
 
 void Synthesis::collectRigs() {
@@ -137,37 +147,37 @@ void Synthesis::collectRigs() {
   for (Rig& rig : rigs_) {
     std::vector<SlabView> views;
     for (const int view : rig.views) views.push_back(*slabView(view));
-    rig.rule = slabBlend(target_, views, options_.apertureRadius);
+    rig.rule = slabBlend(target_, views, points_, options_.apertureRadius);
   }
 }
 
 bool Synthesis::isAsked(const Rig& rig, int local, Ring ring) const {
   std::vector<float> weights(static_cast<std::size_t>(target_.size().width));
   for (int y = 0; y < target_.size().height; ++y) {
+    if (!mayAsk(rig, local, y, ring)) continue;
     wantedWeights(rig, local, y, ring, weights);
-    if (std::any_of(weights.begin(), weights.end(), [](float w) { return w > 0; })) return true;
+    if (std::ranges::any_of(weights, [](float w) { return w > 0; })) return true;
   }
   return false;
 }
 
 void Synthesis::wantedWeights(const Rig& rig, int local, int y, Ring ring,
                               std::span<float> weights) const {
-  (rig.rule ? rig.rule : freeRule_)->weights(local, y, ring, weights);
+  ruleOf(rig).weights(local, y, ring, weights);
   if (ring == Ring::Near) return;
-  const auto points = points_.row(y);
   for (int x = 0; x < target_.size().width; ++x) {
-    const auto at = static_cast<std::size_t>(x);
-    if (!isKnown(points[at]) || visibleShare(near_, x, y) >= kEnoughVisible) weights[at] = 0;
+    if (!wantsMore(x, y)) weights[static_cast<std::size_t>(x)] = 0;
   }
 }
 
-// Of a slab, all that its rule asks for, since that depends on rays alone. Of free cameras, those
-// that stand and look most like the target.
+// Of a slab, all that its rule asks for, since that depends on rays alone, and its outposts. Of
+// free cameras, those that stand and look most like the target.
 std::vector<int> Synthesis::drawnViews(const Rig& rig) const {
   std::vector<int> drawn;
   if (rig.rule) {
+    const std::vector<int> outposts = rig.rule->outposts();
     for (int local = 0; local < static_cast<int>(rig.views.size()); ++local) {
-      if (isAsked(rig, local, Ring::Near))
+      if (std::ranges::count(outposts, local) > 0 || isAsked(rig, local, Ring::Near))
         drawn.push_back(rig.views[static_cast<std::size_t>(local)]);
     }
     return drawn;
@@ -279,6 +289,7 @@ void Synthesis::add(const Rig& rig, Ring ring, Undefined undefined, Picture& sum
     tbb::parallel_for(tbb::blocked_range<int>(0, target_.size().height), [&](const auto& rows) {
       std::vector<float> weights(static_cast<std::size_t>(target_.size().width));
       for (int y = rows.begin(); y < rows.end(); ++y) {
+        if (!mayAsk(rig, local, y, ring)) continue;
         wantedWeights(rig, local, y, ring, weights);
         const auto points = points_.row(y);
         for (std::size_t x = 0; x < weights.size(); ++x) {
@@ -291,15 +302,13 @@ void Synthesis::add(const Rig& rig, Ring ring, Undefined undefined, Picture& sum
 }
 
 void Synthesis::askMoreViews(Undefined undefined) {
-  bool wanted = false;
-  for (int y = 0; y < target_.size().height && !wanted; ++y) {
-    const auto points = points_.row(y);
-    for (int x = 0; x < target_.size().width && !wanted; ++x) {
-      wanted = isKnown(points[static_cast<std::size_t>(x)]) &&
-               visibleShare(near_, x, y) < kEnoughVisible;
+  rowsWantMore_.assign(static_cast<std::size_t>(target_.size().height), 0);
+  for (int y = 0; y < target_.size().height; ++y) {
+    for (int x = 0; x < target_.size().width; ++x) {
+      if (wantsMore(x, y)) rowsWantMore_[static_cast<std::size_t>(y)] = 1;
     }
   }
-  if (!wanted) return;
+  if (std::ranges::count(rowsWantMore_, 1) == 0) return;
   wide_ = Picture(near_.size(), near_.channels());
   for (const Rig& rig : rigs_) add(rig, Ring::Wide, undefined, wide_);
 }

@@ -181,6 +181,31 @@ TEST(CoarseSlab, OutlinesOfItsViewsMakeNoHolesInThings) {
   }
 }
 
+// Beyond the window's edge, the view points around a ray see nothing of what others see through it.
+TEST(Slabs, SeeBesideTheWindowWhatAnyOfTheirViewsDoes) {
+  AnalyticScene scene;
+  scene.wallHalf = 4;
+  for (const int count : {5, 17}) {
+    LightSlab slab = testSlab(count, kPixels);
+    slab.st = {-0.8, -0.8, 0.8, 0.8};
+    // Near the grid's corner; the window fills half of the picture.
+    const ViewGeometry camera = cameraAt({0.72, 0.7, 3}, {0, 0, 0}, kPixels, 1.6);
+    const Picture found = synthesise(*viewSource(seenBySlab(scene, slab)), camera).picture;
+    const Picture truth = seen(scene, {"", camera}).picture;
+    int covered = 0;
+    double squares = 0;
+    for (std::size_t i = 0; i < found.size().pixels(); ++i) {
+      const float* rgba = &found.samples()[4 * i];
+      if (rgba[3] < 0.99F) continue;
+      ++covered;
+      for (std::size_t c = 0; c < 3; ++c)
+        squares += std::pow(rgba[c] - truth.samples()[4 * i + c], 2) / 3;
+    }
+    EXPECT_GT(covered, 0.77 * kPixels * kPixels) << count;
+    EXPECT_GT(-10 * std::log10(squares / covered), 28) << count;
+  }
+}
+
 TEST(Slabs, MeetWithoutASeam) {
   // Two slabs at right angles, view points meeting in the edge between them.
   LightSlab front = testSlab(5, kPixels), right = front;

@@ -48,24 +48,10 @@ void ViewProjector::setPinhole(const PinholeCamera& camera) {
   widthPerRange_ = 1 / std::sqrt(std::abs(focalX_ * focalY_));
 }
 
-bool ViewProjector::see(Vector3 point, Sighting& seen) const {
-  if (kind_ == Kind::Around) {
-    const auto position = pixelOf(around_, point);
-    if (!position) return false;
-    seen = {position->x, position->y, length(point - eye())};
-    return true;
-  }
-  const Vector3 p = cameraFromObject_.point(point);
-  seen.range = -p.z;
-  if (kind_ == Kind::Parallel) {
-    seen.x = p.x / widthPerRange_ + 0.5 * size_.width;
-    seen.y = 0.5 * size_.height - p.y / widthPerRange_;
-    return true;
-  }
-  if (seen.range <= 0) return false;
-  const double inverseRange = 1 / seen.range;
-  seen.x = centre_.x + focalX_ * p.x * inverseRange;
-  seen.y = centre_.y - focalY_ * p.y * inverseRange;
+bool ViewProjector::seeAround(Vector3 point, Sighting& seen) const {
+  const auto position = pixelOf(around_, point);
+  if (!position) return false;
+  seen = {position->x, position->y, length(point - eye())};
   return true;
 }
 
@@ -90,13 +76,6 @@ Ray ViewProjector::ray(double x, double y) const {
   if (kind_ == Kind::Parallel) return {pointAt(x, y, 0), {0, 0, -1}};
   return {eye(),
           objectFromCamera_.vector({(x - centre_.x) / focalX_, (centre_.y - y) / focalY_, -1})};
-}
-
-Vector3 ViewProjector::towardEye(Vector3 point) const {
-  if (kind_ == Kind::Parallel) return {0, 0, 1};
-  const Vector3 way = eye() - point;
-  const double far = length(way);
-  return far > 0 ? (1 / far) * way : -1.0 * axis();
 }
 
 Vector3 ViewProjector::axis() const {

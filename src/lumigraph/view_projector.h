@@ -28,13 +28,32 @@ class ViewProjector {
   bool isPerspective() const { return kind_ == Kind::Perspective; }
 
   /// False for what no position shows. Positions outside the picture are true.
-  bool see(Vector3 point, Sighting& seen) const;
+  bool see(Vector3 point, Sighting& seen) const {
+    if (kind_ == Kind::Around) return seeAround(point, seen);
+    const Vector3 p = cameraFromObject_.point(point);
+    seen.range = -p.z;
+    if (kind_ == Kind::Parallel) {
+      seen.x = p.x / widthPerRange_ + 0.5 * size_.width;
+      seen.y = 0.5 * size_.height - p.y / widthPerRange_;
+      return true;
+    }
+    if (seen.range <= 0) return false;
+    const double inverseRange = 1 / seen.range;
+    seen.x = centre_.x + focalX_ * p.x * inverseRange;
+    seen.y = centre_.y - focalY_ * p.y * inverseRange;
+    return true;
+  }
   /// The inverse.
   Vector3 pointAt(double x, double y, double range) const;
   /// `direction` is of any length.
   Ray ray(double x, double y) const;
   /// From the point to the eye, of unit length.
-  Vector3 towardEye(Vector3 point) const;
+  Vector3 towardEye(Vector3 point) const {
+    if (kind_ == Kind::Parallel) return {0, 0, 1};
+    const Vector3 way = eye() - point;
+    const double far = length(way);
+    return far > 0 ? (1 / far) * way : -1.0 * axis();
+  }
   /// Where all rays come from; of photographs, far in front.
   Vector3 eye() const { return objectFromCamera_.translation; }
   /// Where the middle of the picture looks, of unit length.
@@ -53,6 +72,7 @@ class ViewProjector {
  private:
   enum class Kind { Perspective, Parallel, Around };
   void setPinhole(const PinholeCamera& camera);
+  bool seeAround(Vector3 point, Sighting& seen) const;
 
   Kind kind_ = Kind::Perspective;
   Size size_;

@@ -112,7 +112,15 @@ bool areAlike(const Object& object, int one, int other) {
 }  // namespace
 
 struct Relighter::State {
-  State(Object object, std::uint64_t memoryBytes) : cache(std::move(object), memoryBytes) {}
+  State(Object opened, std::uint64_t memoryBytes)
+      : object(std::move(opened)),
+        cache(
+            [this](const TileKey& key) {
+              return TilePlanes(object.planeTile(key.group, key.level, key.x, key.y),
+                                object.manifest().coding(key.group).bits);
+            },
+            memoryBytes) {}
+  const Object object;
   mutable TileCache cache;
 };
 
@@ -134,7 +142,7 @@ double PreparedLights::environmentError() const {
 
 PreparedLights Relighter::prepare(const Illumination& lights, int group,
                                   const PrepareOptions& options) const {
-  const Object& object = state_->cache.object();
+  const Object& object = state_->object;
   checkRequest(object, group, 0);
   Illumination turned = inGroup(object.view(group), lights);
   const CodingEntry& coding = object.manifest().coding(group);
@@ -155,7 +163,7 @@ PreparedLights Relighter::prepare(const Illumination& lights, int group,
 }
 
 PreparedLights Relighter::prepareAlso(const PreparedLights& lights, int group) const {
-  const Object& object = state_->cache.object();
+  const Object& object = state_->object;
   checkRequest(object, group, 0);
   if (!areAlike(object, lights.group(), group)) return prepare(*lights.state_->lights, group);
   auto state = std::make_shared<PreparedLights::State>(*lights.state_);
@@ -170,7 +178,7 @@ Picture Relighter::relight(std::span<const DirectionalLight> lights, int group, 
 }
 
 Picture Relighter::relight(const PreparedLights& lights, int level) const {
-  const Object& object = state_->cache.object();
+  const Object& object = state_->object;
   checkRequest(object, lights.group(), level);
   const Size size = object.manifest().grid(lights.group()).sizeAt(level);
   return relightRegion(lights, {0, 0, size.width, size.height}, level);
@@ -183,7 +191,7 @@ Picture Relighter::relightRegion(std::span<const DirectionalLight> lights, const
 
 Picture Relighter::relightRegion(const PreparedLights& lights, const Rectangle& region,
                                  int level) const {
-  const Object& object = state_->cache.object();
+  const Object& object = state_->object;
   const PreparedLights::State& prepared = *lights.state_;
   const int group = prepared.group;
   checkRequest(object, group, level);

@@ -1,9 +1,5 @@
 #include "relight/tile_cache.h"
 
-#include <utility>
-
-#include "object/manifest.h"
-
 namespace illum {
 
 std::shared_ptr<const TilePlanes> TileCache::planes(const TileKey& key) {
@@ -14,9 +10,7 @@ std::shared_ptr<const TilePlanes> TileCache::planes(const TileKey& key) {
       return found->second.codes;
     }
   }
-  auto codes =
-      std::make_shared<const TilePlanes>(object_.planeTile(key.group, key.level, key.x, key.y),
-                                         object_.manifest().coding(key.group).bits);
+  auto codes = std::make_shared<const TilePlanes>(decode_(key));
   keep(key, codes);
   return codes;
 }

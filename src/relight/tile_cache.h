@@ -1,14 +1,15 @@
-// Decoded tiles of an object, kept within a bound of memory.
+// Decoded tiles, kept within a bound of memory.
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <list>
 #include <map>
 #include <memory>
 #include <mutex>
 #include <tuple>
+#include <utility>
 
-#include "illum/object.h"
 #include "relight/tile_planes.h"
 
 namespace illum {
@@ -22,13 +23,14 @@ struct TileKey {
 /// cache.
 class TileCache {
  public:
-  TileCache(Object object, std::uint64_t memoryBytes)
-      : object_(std::move(object)), memoryBytes_(memoryBytes) {}
+  using Decode = std::function<TilePlanes(const TileKey&)>;
+
+  /// `decode` is called from several threads.
+  TileCache(Decode decode, std::uint64_t memoryBytes)
+      : decode_(std::move(decode)), memoryBytes_(memoryBytes) {}
 
   /// The codes, decoded now or earlier. Two threads that miss at once may both decode.
   std::shared_ptr<const TilePlanes> planes(const TileKey& key);
-
-  const Object& object() const { return object_; }
 
  private:
   struct Entry {
@@ -37,7 +39,7 @@ class TileCache {
   };
   void keep(const TileKey& key, const std::shared_ptr<const TilePlanes>& codes);
 
-  Object object_;
+  Decode decode_;
   std::uint64_t memoryBytes_, usedBytes_ = 0;
   std::mutex mutex_;
   std::map<TileKey, Entry> entries_;

@@ -94,6 +94,24 @@ CodeRows rowsFrom(const TilePlanes& planes, const CodingEntry& coding, std::size
   return rows;
 }
 
+// linearFromDisplay of [0, 1] within 3e-8, for a power a sample would cost more than the sum.
+// Values outside are clamped; what is not a number gives 0.
+void decodeDisplay(std::span<float> samples) {
+  constexpr std::size_t kSteps = 4096;
+  static const std::array<float, kSteps + 1> kTable = [] {
+    std::array<float, kSteps + 1> table{};
+    for (std::size_t i = 0; i <= kSteps; ++i)
+      table[i] = linearFromDisplay(static_cast<float>(i) / kSteps);
+    return table;
+  }();
+  for (float& s : samples) {
+    const float at = s > 0 ? std::min(s, 1.0F) * kSteps : 0;
+    const auto below = std::min(static_cast<std::size_t>(at), kSteps - 1);
+    const float share = at - static_cast<float>(below);
+    s = kTable[below] + share * (kTable[below + 1] - kTable[below]);
+  }
+}
+
 }  // namespace
 
 FoldedWeights foldWeights(std::span<const double> basisValues, const CodingEntry& coding) {
@@ -150,7 +168,7 @@ void applyResponse(Response response, std::span<float> samples) {
     case Response::Linear:
       return;
     case Response::Display:
-      for (float& s : samples) s = linearFromDisplay(std::clamp(s, 0.0f, 1.0f));
+      decodeDisplay(samples);
       return;
     case Response::Cone:
       for (float& s : samples) s = std::max(s, 0.0f);

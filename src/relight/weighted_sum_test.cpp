@@ -259,6 +259,21 @@ TEST(ApplyResponse, DisplayClampsAndDecodes) {
   EXPECT_NEAR(samples[4], 1, 1e-6);
 }
 
+TEST(ApplyResponse, DisplayIsTheTransferFunctionEverywhere) {
+  constexpr int kSteps = 100'003;
+  for (int i = 0; i <= kSteps; ++i) {
+    const float display = static_cast<float>(i) / kSteps;
+    std::array<float, 1> sample{display};
+    applyResponse(Response::Display, sample);
+    ASSERT_NEAR(sample[0], linearFromDisplay(display), 1e-7) << display;
+  }
+  std::vector<float> hostile{std::numeric_limits<float>::quiet_NaN(),
+                             std::numeric_limits<float>::infinity(),
+                             -std::numeric_limits<float>::infinity()};
+  applyResponse(Response::Display, hostile);
+  EXPECT_EQ(hostile, (std::vector<float>{0, 1, 0}));
+}
+
 TEST(ApplyResponse, LinearKeepsAndConeCutsNegativeLight) {
   std::vector<float> samples{-2, 3};
   applyResponse(Response::Linear, samples);

@@ -138,6 +138,19 @@ def test_finished_tiles_are_not_made_again(illum, source, uninterrupted, tmp_pat
     assert out.read_bytes() == uninterrupted[0] and not folder.exists()
 
 
+def test_the_exact_basis_is_resumed(illum, source, tmp_path):
+    exact = ("--basis", "exact", "--coding", "png", "--tile", 64)
+    illum("build", source, "-o", tmp_path / "whole.illum", *exact)
+    out = tmp_path / "o.illum"
+    process = illum.start("build", source, "-o", out, *exact)
+    wait_for_tiles(process, out, 5)
+    process.kill()
+    process.communicate(timeout=60)
+    assert not out.exists() and tiles_of(out) >= 5
+    illum("build", source, "-o", out, *exact, "--resume")
+    assert out.read_bytes() == (tmp_path / "whole.illum").read_bytes()
+
+
 def test_resume_refuses_other_settings(illum, source, tmp_path):
     out = tmp_path / "o.illum"
     kill_after_tiles(illum, source, out, 3)
