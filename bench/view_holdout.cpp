@@ -2,10 +2,13 @@
 // were left out"). The data are public and not part of this project.
 //
 //   illum_view_holdout shop|cube FOLDER [SHRINK [EVERY [PICTURES]]]
+//   illum_view_holdout shop-object FOLDER OBJECT [EVERY [PICTURES]]
 //
 // shop: a grid of parallel cameras, views/ and holdout/ with views.csv and holdout.csv (col, row,
 // cam_x_mm, cam_y_mm); every EVERY-th of the held-out pictures is predicted. cube: images/,
-// poses.json and proxy.obj, each view from all others. PICTURES: a folder for sheets to look at.
+// poses.json and proxy.obj, each view from all others. shop-object: the pictures of holdout/ at
+// their full size, seen in an object that was built of those of views/ (scripts/posed_capture.py
+// grid). PICTURES: a folder for sheets to look at.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -13,6 +16,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <string>
@@ -38,7 +42,7 @@ struct Arguments {
   std::string what;
   fs::path folder;
   int shrink = 2, every = 12;
-  fs::path pictures;
+  fs::path pictures, object;
 };
 
 // A box of shrink x shrink pixels becomes one; RGBA, covered everywhere.
@@ -138,15 +142,39 @@ class Shop {
   }
 
   void run() {
+    std::unique_ptr<Lumigraph> lumigraph;
+    if (!arguments_.object.empty()) {
+      lumigraph = std::make_unique<Lumigraph>(Object::open(arguments_.object));
+      // The object knows one light, from wherever it is asked for.
+      const DirectionalLight light{Direction(), {1, 1, 1}};
+      lumigraph->setLights(std::span(&light, 1));
+    }
     for (std::size_t i = static_cast<std::size_t>(arguments_.every) / 2; i < heldOut_.size();
          i += static_cast<std::size_t>(arguments_.every)) {
-      predict(heldOut_[i]);
+      if (lumigraph)
+        predictBy(*lumigraph, heldOut_[i]);
+      else
+        predict(heldOut_[i]);
       fmt::print(stderr, "{}\n", heldOut_[i].file.string());
     }
     table_.print();
   }
 
  private:
+  void predictBy(Lumigraph& lumigraph, const ShopCamera& camera) {
+    const Picture truth = readShrunk(camera.file, 1);
+    const View target = shopView(camera, truth.size(), focal_);
+    SynthesisOptions one;
+    one.blendedViews = 1;
+    std::vector<Picture> sheet{lumigraph.see(target.geometry, one).picture,
+                               lumigraph.see(target.geometry).picture, truth};
+    table_.add("one view", sheet[0], truth);
+    table_.add("blending of 4", sheet[1], truth);
+    if (!arguments_.pictures.empty()) {
+      bench::writeSheet(arguments_.pictures / (target.name + "_object.png"), sheet);
+    }
+  }
+
   // The held-out cameras stand in the middle of four others, which are all that blending asks for.
   void predict(const ShopCamera& camera) {
     const Picture truth = readShrunk(camera.file, arguments_.shrink);
@@ -328,14 +356,22 @@ int run(const Arguments& arguments) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc < 3 || (std::string(argv[1]) != "shop" && std::string(argv[1]) != "cube")) {
-    fmt::print(stderr, "usage: illum_view_holdout shop|cube FOLDER [SHRINK [EVERY [PICTURES]]]\n");
+  Arguments arguments;
+  if (argc > 1) arguments.what = argv[1];
+  const bool ofObject = arguments.what == "shop-object";
+  if (argc < (ofObject ? 4 : 3) ||
+      (arguments.what != "shop" && arguments.what != "cube" && !ofObject)) {
+    fmt::print(stderr,
+               "usage: illum_view_holdout shop|cube FOLDER [SHRINK [EVERY [PICTURES]]]\n"
+               "       illum_view_holdout shop-object FOLDER OBJECT [EVERY [PICTURES]]\n");
     return 2;
   }
-  Arguments arguments;
-  arguments.what = argv[1];
   arguments.folder = argv[2];
-  if (argc > 3) arguments.shrink = std::max(1, std::atoi(argv[3]));
+  if (ofObject) {
+    arguments.object = argv[3];
+    arguments.shrink = 1;
+  } else if (argc > 3)
+    arguments.shrink = std::max(1, std::atoi(argv[3]));
   if (argc > 4) arguments.every = std::max(1, std::atoi(argv[4]));
   if (argc > 5) arguments.pictures = argv[5];
   try {
