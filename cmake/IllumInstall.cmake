@@ -3,6 +3,7 @@
 
 include(CMakePackageConfigHelpers)
 set(ILLUM_CONFIG_DIR ${CMAKE_INSTALL_LIBDIR}/cmake/Illumigraph)
+set(ILLUM_MODULE_DIR ${CMAKE_INSTALL_LIBDIR}/illumigraph)
 
 # Header-only packages are compiled in: users of the archive have nothing of them to find or link.
 function(illum_export_library TARGET SET)
@@ -17,15 +18,20 @@ endfunction()
 illum_export_library(illum_read IllumigraphReadTargets)
 if(ILLUM_AUTHOR)
   illum_export_library(illum_author IllumigraphAuthorTargets)
-endif()
-if(TARGET illum)
+  # Found from the program, so that both may be moved together; the package's users find it from the
+  # package.
+  file(RELATIVE_PATH module_from_program ${CMAKE_INSTALL_FULL_BINDIR}
+       ${CMAKE_INSTALL_FULL_LIBDIR}/illumigraph)
+  set_target_properties(illum PROPERTIES INSTALL_RPATH "$ORIGIN/${module_from_program}")
   install(TARGETS illum RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+  install(TARGETS illum_oiio_module LIBRARY DESTINATION ${ILLUM_MODULE_DIR})
 endif()
 
 configure_package_config_file(
   ${CMAKE_CURRENT_LIST_DIR}/IllumigraphConfig.cmake.in
   ${PROJECT_BINARY_DIR}/IllumigraphConfig.cmake
   INSTALL_DESTINATION ${ILLUM_CONFIG_DIR}
+  PATH_VARS ILLUM_MODULE_DIR
   NO_SET_AND_CHECK_MACRO)
 # Until 1.0 a minor version may change the interface.
 write_basic_package_version_file(

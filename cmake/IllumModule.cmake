@@ -1,8 +1,10 @@
-# illum_module(NAME <name> SOURCES … [TESTS …] [BENCHMARKS …] [USES <module>…] [PACKAGES <target>…])
+# illum_module(NAME <name> SOURCES … [TESTS …] [BENCHMARKS …] [USES <module>…] [PACKAGES <target>…]
+#              [LOADS <target>…])
 #
 # One module is one folder of src/, compiled once into objects. USES names the modules whose headers
 # it may include: the include path itself is one (src/), so the arrow is kept by linking each module's
-# tests against nothing but the module and what it uses, all the way down.
+# tests against nothing but the module and what it uses, all the way down. LOADS names libraries that
+# are loaded while a program runs: they are built before whatever is linked with the module.
 # Variables of the configuration apply to all: warnings, sanitizers.
 
 add_library(illum_flags INTERFACE)
@@ -32,25 +34,37 @@ function(illum_closure OUT)
   set(${OUT} ${closed} PARENT_SCOPE)
 endfunction()
 
+# What is linked with the modules, and what must be there when it runs.
+function(illum_link_packages TARGET)
+  foreach(module IN LISTS ARGN)
+    get_property(packages GLOBAL PROPERTY ILLUM_PACKAGES_${module})
+    target_link_libraries(${TARGET} PRIVATE ${packages})
+    get_property(loads GLOBAL PROPERTY ILLUM_LOADS_${module})
+    if(loads)
+      add_dependencies(${TARGET} ${loads})
+    endif()
+  endforeach()
+endfunction()
+
 function(illum_link_modules TARGET)
   illum_closure(modules ${ARGN})
   foreach(module IN LISTS modules)
     target_sources(${TARGET} PRIVATE $<TARGET_OBJECTS:illum_${module}>)
-    get_property(packages GLOBAL PROPERTY ILLUM_PACKAGES_${module})
-    target_link_libraries(${TARGET} PRIVATE ${packages})
   endforeach()
+  illum_link_packages(${TARGET} ${modules})
   target_include_directories(${TARGET} PRIVATE ${PROJECT_SOURCE_DIR}/include
                                                ${PROJECT_SOURCE_DIR}/src)
   target_link_libraries(${TARGET} PRIVATE illum_flags Threads::Threads)
 endfunction()
 
 function(illum_module)
-  cmake_parse_arguments(M "" "NAME" "SOURCES;TESTS;BENCHMARKS;USES;PACKAGES" ${ARGN})
+  cmake_parse_arguments(M "" "NAME" "SOURCES;TESTS;BENCHMARKS;USES;PACKAGES;LOADS" ${ARGN})
   add_library(illum_${M_NAME} OBJECT ${M_SOURCES})
   target_include_directories(illum_${M_NAME} PRIVATE ${PROJECT_SOURCE_DIR}/include
                                                      ${PROJECT_SOURCE_DIR}/src)
   set_property(GLOBAL PROPERTY ILLUM_USES_${M_NAME} ${M_USES})
   set_property(GLOBAL PROPERTY ILLUM_PACKAGES_${M_NAME} ${M_PACKAGES})
+  set_property(GLOBAL PROPERTY ILLUM_LOADS_${M_NAME} ${M_LOADS})
   illum_closure(modules ${M_NAME})
   foreach(module IN LISTS modules)
     get_property(packages GLOBAL PROPERTY ILLUM_PACKAGES_${module})
@@ -80,9 +94,8 @@ function(illum_library TARGET)
   add_library(Illumigraph::${TARGET} ALIAS ${TARGET})
   foreach(module IN LISTS ARGN)
     target_sources(${TARGET} PRIVATE $<TARGET_OBJECTS:illum_${module}>)
-    get_property(packages GLOBAL PROPERTY ILLUM_PACKAGES_${module})
-    target_link_libraries(${TARGET} PRIVATE ${packages})
   endforeach()
+  illum_link_packages(${TARGET} ${ARGN})
   target_link_libraries(${TARGET} PUBLIC Threads::Threads)
   target_include_directories(${TARGET} PUBLIC
     $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include>

@@ -9,7 +9,7 @@ cd "$(dirname "$0")/.."
 
 modules=("$@")
 [ "${#modules[@]}" -gt 0 ] ||
-  modules=(core capture fit encode relight normals lumigraph build convert study render)
+  modules=(core oiio capture fit encode relight normals lumigraph build convert study render)
 tbb=$PWD/build/instrumented-tbb
 export CCACHE_BASEDIR=$PWD CCACHE_NOHASHDIR=true
 CMAKE_BUILD_PARALLEL_LEVEL=$(nproc)

@@ -4,14 +4,18 @@
 #include <string>
 
 #include "capture/jpeg_reader.h"
-#include "capture/oiio_reader.h"
 #include "capture/png_reader.h"
 #include "capture/webp_reader.h"
 #include "core/memory.h"
 #include "illum/error.h"
+#include "oiio/oiio_module.h"
 
 namespace illum {
 namespace {
+
+const OiioModule& moduleFor(const FilePool& pool, std::size_t file, PhotographFormat format) {
+  return oiioModule(pool.path(file).string(), titleOf(format));
+}
 
 // Bytes a pixel that readers which decode at once need at their worst, measured with
 // OpenImageIO 2.4.
@@ -38,7 +42,7 @@ PhotographHeader readHeaderOf(FilePool& pool, std::size_t file, PhotographFormat
     case PhotographFormat::WebP:
       return readWebpHeader(pool, file);
     default:
-      return readOiioHeader(pool, file, format, head);
+      return moduleFor(pool, file, format).readHeader(pool, file, format, head);
   }
 }
 
@@ -72,7 +76,7 @@ std::unique_ptr<PhotographReader> openReader(FilePool& pool, std::size_t file,
     case PhotographFormat::WebP:
       return openWebpReader(pool, file, header);
     default:
-      return openOiioReader(pool, file, header);
+      return moduleFor(pool, file, header.format).openReader(pool, file, header);
   }
 }
 

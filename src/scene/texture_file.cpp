@@ -1,7 +1,5 @@
 #include "scene/texture_file.h"
 
-#include <OpenImageIO/filesystem.h>
-#include <OpenImageIO/imageio.h>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -9,14 +7,13 @@
 #include <cctype>
 #include <cmath>
 #include <limits>
-#include <memory>
 #include <string_view>
-#include <vector>
 
 #include "core/files.h"
 #include "illum/colour.h"
 #include "illum/error.h"
 #include "image/formats.h"
+#include "oiio/oiio_module.h"
 
 namespace illum {
 namespace {
@@ -48,11 +45,8 @@ const char* readerOf(std::span<const std::byte> bytes, const std::string& name) 
   return ending == ".tga" ? "targa" : nullptr;
 }
 
-Error damaged(const std::string& name, std::string found) {
-  std::ranges::replace_if(
-      found, [](unsigned char c) { return std::iscntrl(c) != 0; }, ' ');
-  return {Fault::Input, fmt::format("{}: expected a picture, found {}", name,
-                                    found.empty() ? "something that cannot be decoded" : found)};
+Error damaged(const std::string& name, std::string_view found) {
+  return inputError(name, "a picture", found);
 }
 
 void checkTexels(int width, int height, const std::string& name) {
@@ -65,10 +59,10 @@ void checkTexels(int width, int height, const std::string& name) {
 
 /// Before memory is asked for on a header's word. A few bytes of WebP may be any number of texels
 /// of one colour; of all others OpenEXR packs most closely.
-void checkSpec(const OIIO::ImageSpec& spec, const std::string& name, std::uint64_t fileBytes,
+void checkSize(const OiioTexture& texture, const std::string& name, std::uint64_t fileBytes,
                bool webp) {
-  checkTexels(spec.width, spec.depth <= 1 && spec.nchannels > 0 ? spec.height : 0, name);
-  checkPictureSize(name, spec.width, spec.height, spec.nchannels, fileBytes,
+  checkTexels(texture.width, texture.channels > 0 ? texture.height : 0, name);
+  checkPictureSize(name, texture.width, texture.height, texture.channels, fileBytes,
                    webp ? std::numeric_limits<double>::infinity() : kExrSamplesPerByte);
 }
 
@@ -93,14 +87,14 @@ Picture texelsOfPng(std::span<const std::byte> bytes, const std::string& name, T
 }
 
 /// Linear texels of 1, 3 or 4 channels.
-Picture texelsOf(const OIIO::ImageSpec& spec, const std::vector<float>& samples, TextureUse use) {
-  const int stored = spec.nchannels;
+Picture texelsOf(const OiioTexture& texture, TextureUse use) {
+  const int stored = texture.channels;
   const bool grey = stored < 3, alpha = stored == 2 || stored >= 4;
   const int channels = alpha ? 4 : grey ? 1 : 3;
-  const bool decode = use == TextureUse::Colour && !spec.format.is_floating_point();
-  Picture texels({spec.width, spec.height}, channels);
+  const bool decode = use == TextureUse::Colour && !texture.storedAsFloats;
+  Picture texels({texture.width, texture.height}, channels);
   for (std::size_t p = 0; p < texels.size().pixels(); ++p) {
-    const float* from = samples.data() + p * static_cast<std::size_t>(stored);
+    const float* from = texture.samples.data() + p * static_cast<std::size_t>(stored);
     float* to = texels.samples().data() + p * static_cast<std::size_t>(channels);
     for (int c = 0; c < std::min(channels, 3); ++c) {
       const float value = from[grey ? 0 : c];
@@ -119,25 +113,13 @@ Texture textureFromBytes(std::span<const std::byte> bytes, const std::string& na
   if (reader == nullptr)
     throw damaged(name, bytes.empty() ? "an empty file" : "another kind of file");
   if (reader == "png"sv) return {name, texelsOfPng(bytes, name, use)};
-  const std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::create(reader);
-  if (!input) throw damaged(name, OIIO::geterror());
-  // The proxy only reads, whatever its interface says.
-  OIIO::Filesystem::IOMemReader proxy(const_cast<std::byte*>(bytes.data()), bytes.size());
-  if (!input->supports("ioproxy") || !input->set_ioproxy(&proxy))
-    throw damaged(name, fmt::format("a {} picture, which this machine's OpenImageIO reads only "
-                                    "from files",
-                                    reader));
-  OIIO::ImageSpec spec, hints;
-  hints.attribute("oiio:UnassociatedAlpha", 1);
-  if (!input->open(name, spec, hints)) throw damaged(name, input->geterror());
-  checkSpec(spec, name, bytes.size(), reader == "webp"sv);
-  std::vector<float> samples(spec.image_pixels() * static_cast<std::size_t>(spec.nchannels));
-  if (!input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, samples.data()) ||
-      input->has_error())
-    throw damaged(name, input->geterror());
-  if (!std::ranges::all_of(samples, [](float x) { return std::isfinite(x); }))
+  const OiioTexture texture =
+      oiioModule(name, reader).readTexture(bytes, name, reader, [&](const OiioTexture& declared) {
+        checkSize(declared, name, bytes.size(), reader == "webp"sv);
+      });
+  if (!std::ranges::all_of(texture.samples, [](float x) { return std::isfinite(x); }))
     throw damaged(name, "texels that are not finite");
-  return {name, texelsOf(spec, samples, use)};
+  return {name, texelsOf(texture, use)};
 }
 
 Texture readTexture(const std::filesystem::path& file, TextureUse use) {
