@@ -5,6 +5,7 @@ ILLUM_BUILD names the build folder (default build/release).
 
 import os
 import pathlib
+import shutil
 import subprocess
 
 import numpy as np
@@ -57,6 +58,38 @@ def test_what_is_installed(prefix):
     assert (documents / "LICENSE").is_file() and (documents / "docs/format.md").is_file()
 
 
+@pytest.fixture(scope="module")
+def tiffs(tmp_path_factory):
+    """Photographs that OpenImageIO reads."""
+    folder = tmp_path_factory.mktemp("tiffs") / "photographs"
+    stacks.write_stack(folder, suffix=".tif")
+    return folder
+
+
+def test_the_installed_program_finds_its_module(prefix, tiffs, tmp_path):
+    libraries = run("ldd", prefix / "bin/illum")
+    assert "OpenImageIO" not in libraries and str(BUILD) not in libraries
+    # Both may be moved together.
+    shutil.copytree(prefix, tmp_path / "moved")
+    for place in prefix, tmp_path / "moved":
+        environment = {**os.environ, "LD_DEBUG": "files",
+                       "LD_DEBUG_OUTPUT": str(tmp_path / "loaded")}
+        subprocess.run([place / "bin/illum", "build", tiffs, "-o", tmp_path / "o.illum",
+                        "--force"], check=True, env=environment)
+        loaded = "".join(file.read_text() for file in tmp_path.glob("loaded.*"))
+        assert f"{place}/bin/../lib/illumigraph/illum_oiio.so" in loaded
+
+
+def test_a_program_without_its_module_says_so(prefix, tiffs, tmp_path):
+    alone = shutil.copy(prefix / "bin/illum", tmp_path / "illum")
+    done = subprocess.run([alone, "build", tiffs, "-o", tmp_path / "o.illum"],
+                          capture_output=True, text=True)
+    assert done.returncode == 3 and done.stderr.count("\n") == 1, done.stderr
+    assert "photo 00.tif: TIFF pictures are read by illum_oiio.so" in done.stderr
+    stacks.write_stack(tmp_path / "photographs", suffix=".jpg")
+    run(alone, "build", tmp_path / "photographs", "-o", tmp_path / "o.illum")
+
+
 def test_nothing_remembers_where_it_was_built(prefix):
     for file in prefix.rglob("*.cmake"):
         assert str(ROOT) not in file.read_text() and str(BUILD) not in file.read_text(), file
@@ -82,24 +115,29 @@ def test_reading_brings_none_of_the_authoring_libraries(consumer):
         assert library not in loaded, loaded
 
 
-def test_authoring_can_be_linked_too(prefix, tmp_path):
+def test_authoring_can_be_linked_too(prefix, tiffs, tmp_path):
     (tmp_path / "CMakeLists.txt").write_text(
         "cmake_minimum_required(VERSION 3.25)\nproject(Author LANGUAGES CXX)\n"
         "set(CMAKE_CXX_STANDARD 20)\n"
         "find_package(Illumigraph REQUIRED COMPONENTS read author)\n"
         "add_executable(author author.cpp)\n"
-        "target_link_libraries(author PRIVATE Illumigraph::illum_author)\n")
+        "target_link_libraries(author PRIVATE Illumigraph::illum_author)\n"
+        "install(TARGETS author DESTINATION bin)\n")
     (tmp_path / "author.cpp").write_text(
         '#include "illum/capture.h"\n#include "illum/error.h"\n'
-        "int main() {\n"
+        "int main(int, char** argv) {\n"
         "  illum::Progress progress;\n"
-        '  try { illum::openPhotographs("/nowhere", {}, progress); }\n'
+        "  try { illum::openPhotographs(argv[1], {}, progress); }\n"
         "  catch (const illum::Error&) { return 7; }\n"
         "}\n")
     run("cmake", "-S", tmp_path, "-B", tmp_path / "b", "-G", "Ninja",
         f"-DCMAKE_PREFIX_PATH={prefix}")
     run("cmake", "--build", tmp_path / "b")
-    assert subprocess.run([tmp_path / "b/author"]).returncode == 7
+    run("cmake", "--install", tmp_path / "b", "--prefix", tmp_path / "i")
+    for author in tmp_path / "b/author", tmp_path / "i/bin/author":
+        assert subprocess.run([author, "/nowhere"]).returncode == 7
+        assert subprocess.run([author, tiffs]).returncode == 0
+        assert "OpenImageIO" not in run("ldd", author)
 
 
 def test_another_minor_version_is_not_taken(prefix, tmp_path):
