@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <cmath>
 #include <numeric>
 
@@ -177,8 +178,8 @@ TEST_F(CaptureFolderTest, ReplacesCapturesOnlyWhenAsked) {
 
 TEST_F(CaptureFolderTest, AStoppedCaptureLeavesNothing) {
   CaptureFolderOptions options;
-  int steps = 0;
-  options.stop = [&] { return ++steps == 7; };
+  std::atomic<int> steps = 0;
+  options.stop = [&] { return ++steps >= 7; };
   EXPECT_FALSE(writeCaptureFolder(capture_, path_, options, progress_));
   EXPECT_TRUE(fs::is_empty(folder_.path()));
 }
