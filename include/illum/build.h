@@ -31,7 +31,8 @@ struct BuildOptions {
       tile;  ///< side of a tile, multiple of 8; unset: 512, or less where the planes need it
   std::uint64_t memoryBytes = 0;  ///< 0: a quarter of the machine
   bool resume = false, force = false;
-  /// Asked whenever progress is made; true stops the build with what is done kept for `resume`.
+  /// Asked, from any thread, whenever progress is made; true stops the build with what is done kept
+  /// for `resume`.
   std::function<bool()> stop;
 };
 

@@ -25,7 +25,8 @@ struct CaptureFolderOptions {
   bool half = false;              ///< samples as halves instead of floats; mask and depth stay
   bool force = false;             ///< replace a capture that is there
   std::uint64_t memoryBytes = 0;  ///< for pictures on their way; 0: a quarter of the machine
-  /// Asked whenever progress is made; true stops the work, and nothing of it remains.
+  /// Asked, from any thread, whenever progress is made; true stops the work, and nothing of it
+  /// remains.
   std::function<bool()> stop;
 };
 

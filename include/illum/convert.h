@@ -20,7 +20,8 @@ struct ConvertOptions {
   int speed = -1;                 ///< of the AVIF encoder, 0-10; -1: the default
   std::uint64_t memoryBytes = 0;  ///< 0: a quarter of the machine
   bool force = false;             ///< replace an existing object
-  /// Asked whenever progress is made; true stops the work, and nothing of it remains.
+  /// Asked, from any thread, whenever progress is made; true stops the work, and nothing of it
+  /// remains.
   std::function<bool()> stop;
 };
 
