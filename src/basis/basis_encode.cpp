@@ -1,7 +1,9 @@
 // Writing a table: coded columns as the deflated bytes of basis/basis_file.h.
+#include <tbb/parallel_for.h>
 #include <zlib.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <string>
 #include <utility>
@@ -78,7 +80,7 @@ SectionedPayload payloadOf(const CodeLayout& layout, const std::vector<CodedColu
 }
 
 // `sectioned`: a new block of deflate for each section; otherwise as zlib likes.
-std::vector<std::byte> deflated(SectionedPayload& payload, int strategy, bool sectioned) {
+std::vector<std::byte> deflated(const SectionedPayload& payload, int strategy, bool sectioned) {
   z_stream stream{};
   if (deflateInit2(&stream, Z_BEST_COMPRESSION, Z_DEFLATED, MAX_WBITS, MAX_MEM_LEVEL, strategy) !=
       Z_OK) {
@@ -91,7 +93,7 @@ std::vector<std::byte> deflated(SectionedPayload& payload, int strategy, bool se
   std::size_t start = 0;
   for (const std::size_t end : payload.ends) {
     const bool last = end == payload.bytes.size();
-    stream.next_in = payload.bytes.data() + start;
+    stream.next_in = const_cast<Bytef*>(payload.bytes.data() + start);  // only read
     stream.avail_in = static_cast<uInt>(end - start);
     deflate(&stream, last ? Z_FINISH : sectioned ? Z_BLOCK : Z_NO_FLUSH);
     start = end;
@@ -102,15 +104,13 @@ std::vector<std::byte> deflated(SectionedPayload& payload, int strategy, bool se
   return out;
 }
 
-std::vector<std::byte> smallestDeflated(SectionedPayload& payload) {
-  std::vector<std::byte> best;
-  for (const int strategy : {Z_DEFAULT_STRATEGY, Z_FILTERED, Z_RLE, Z_HUFFMAN_ONLY}) {
-    for (const bool sectioned : {false, true}) {
-      std::vector<std::byte> trial = deflated(payload, strategy, sectioned);
-      if (best.empty() || trial.size() < best.size()) best = std::move(trial);
-    }
-  }
-  return best;
+std::vector<std::byte> smallestDeflated(const SectionedPayload& payload) {
+  constexpr std::array kStrategies{Z_DEFAULT_STRATEGY, Z_FILTERED, Z_RLE, Z_HUFFMAN_ONLY};
+  std::array<std::vector<std::byte>, 2 * kStrategies.size()> trials;
+  tbb::parallel_for(std::size_t{0}, trials.size(), [&](std::size_t i) {
+    trials[i] = deflated(payload, kStrategies[i / 2], i % 2 != 0);
+  });
+  return *std::ranges::min_element(trials, {}, &std::vector<std::byte>::size);
 }
 
 std::vector<std::byte> fileOf(const Header& header, std::span<const std::byte> deflatedPayload) {
@@ -197,7 +197,7 @@ std::vector<std::byte> BasisTable::encode() {
   while (header.bytesPerCode < 4 && largest >> (8 * header.bytesPerCode) != 0) {
     ++header.bytesPerCode;
   }
-  SectionedPayload payload = payloadOf(layout, coded, codes, header.bytesPerCode);
+  const SectionedPayload payload = payloadOf(layout, coded, codes, header.bytesPerCode);
   encoded_ = fileOf(header, smallestDeflated(payload));
   return encoded_;
 }
