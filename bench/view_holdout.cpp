@@ -27,16 +27,14 @@
 #include "illum/error.h"
 #include "illum/lumigraph.h"
 #include "illum/picture_io.h"
-#include "plane_sweep.h"
+#include "lumigraph/sharpest_plane.h"
+#include "lumigraph/swept_depth.h"
 
 namespace {
 
 using namespace illum;
 using bench::Score;
 namespace fs = std::filesystem;
-
-constexpr int kSweptPlanes = 48;
-constexpr double kNearest = 3, kFarthest = 40;  // of the shop, metres
 
 struct Arguments {
   std::string what;
@@ -138,7 +136,6 @@ class Shop {
     const auto geometry =
         nlohmann::json::parse(readTextFile(arguments.folder / "geometry.json", 1 << 16));
     focal_ = geometry.at("focal_px").get<double>() / arguments.shrink;
-    depths_ = bench::depthsBetween(kNearest, kFarthest, kSweptPlanes);
   }
 
   void run() {
@@ -180,15 +177,13 @@ class Shop {
     const Picture truth = readShrunk(camera.file, arguments_.shrink);
     const View target = shopView(camera, truth.size(), focal_);
     std::vector<SourceView> near = nearest(camera, 4);
-    const double common = bench::bestCommonDepth(near[0], std::span(near).subspan(1), depths_);
-    const Plane plane{{0, 0, -common}, {0, 0, 1}};
-
     std::vector<Picture> sheet;
     const auto judge = [&](const char* way, const Picture& found) {
       table_.add(way, found, truth);
       sheet.push_back(found);
     };
     const auto source = viewSource(near);
+    const Plane plane = sharpestPlane(*source).value();
     judge("nearest view", near[0].picture);
     judge("nearest view, on the best focal plane",
           synthesise(*source, target.geometry, focusedAt(plane, 1)).picture);
@@ -220,19 +215,21 @@ class Shop {
 
   // Of each view from the others.
   void addDepth(std::vector<SourceView>& views) const {
-    std::vector<Picture> depths;
+    std::vector<SmallView> small;
+    for (const SourceView& view : views)
+      small.push_back({ViewProjector(view.view.geometry), SmallPicture(view.picture, kSweptSide)});
     for (std::size_t i = 0; i < views.size(); ++i) {
-      std::vector<SourceView> others = views;
-      others.erase(others.begin() + static_cast<std::ptrdiff_t>(i));
-      depths.push_back(bench::sweptDepth(views[i], others, depths_));
+      std::vector<const SmallView*> others;
+      for (std::size_t k = 0; k < views.size(); ++k) {
+        if (k != i) others.push_back(&small[k]);
+      }
+      views[i].depth = sweptDepth(views[i].picture, small[i], others);
     }
-    for (std::size_t i = 0; i < views.size(); ++i) views[i].depth = std::move(depths[i]);
   }
 
   Arguments arguments_;
   std::vector<ShopCamera> sampled_, heldOut_;
   double focal_ = 1;
-  std::vector<double> depths_;
   Table table_;
 };
 

@@ -21,6 +21,13 @@ bool isCaptureFolder(const std::filesystem::path& folder);
 std::unique_ptr<Capture> openCaptureFolder(const std::filesystem::path& folder,
                                            const PhotographOptions& options, Progress& progress);
 
+/// The same views with a depth for each pixel, found by comparing each view's picture with those of
+/// the four about it (plane sweep), when it is read. Holds at most `memoryBytes` besides. Throws
+/// Error for captures that have depth, are rendered, or are not of cameras and slabs at two places
+/// at least, and (Fault::Machine) where that is not enough memory.
+std::unique_ptr<Capture> withSweptDepth(std::unique_ptr<Capture> capture,
+                                        std::uint64_t memoryBytes);
+
 struct CaptureFolderOptions {
   bool half = false;              ///< samples as halves instead of floats; mask and depth stay
   bool force = false;             ///< replace a capture that is there

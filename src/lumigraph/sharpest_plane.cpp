@@ -8,8 +8,7 @@
 #include <limits>
 #include <vector>
 
-#include "illum/colour.h"
-#include "lumigraph/view_projector.h"
+#include "lumigraph/small_picture.h"
 
 namespace illum {
 namespace {
@@ -20,66 +19,21 @@ constexpr int kLongerSide = 320;
 // From plane to plane, and the nearest one, as shifts between the middle picture and that of its
 // nearest neighbour.
 constexpr double kStep = 0.5, kGreatestShare = 0.25;
-// Beyond this two display values just differ: what is hidden in one picture is no worse than that.
-constexpr float kMostDifference = 0.2F;
-
-// Display values, box-filtered.
-struct Small {
-  int shrink = 1;
-  Picture colours;
-
-  explicit Small(const Picture& picture)
-      : shrink(std::max(
-            1, (std::max(picture.width(), picture.height()) + kLongerSide - 1) / kLongerSide)),
-        colours({picture.width() / shrink, picture.height() / shrink}, 3) {
-    const auto share = 1 / static_cast<float>(shrink * shrink);
-    for (int y = 0; y < colours.height() * shrink; ++y) {
-      for (int x = 0; x < colours.width() * shrink; ++x) {
-        for (int c = 0; c < 3; ++c)
-          colours.at(x / shrink, y / shrink, c) += share * picture.at(x, y, c);
-      }
-    }
-    for (float& value : colours.samples()) value = displayFromLinear(std::clamp(value, 0.0F, 1.0F));
-  }
-
-  // Bilinear at a position of the large picture; false outside.
-  bool sample(const Sighting& at, std::array<float, 3>& colour) const {
-    const double x = at.x / shrink - 0.5, y = at.y / shrink - 0.5;
-    if (!(x >= 0 && y >= 0 && x < colours.width() - 1 && y < colours.height() - 1)) return false;
-    const int left = static_cast<int>(x), top = static_cast<int>(y);
-    const auto fx = static_cast<float>(x - left), fy = static_cast<float>(y - top);
-    for (int c = 0; c < 3; ++c) {
-      const float upper = (1 - fx) * colours.at(left, top, c) + fx * colours.at(left + 1, top, c);
-      const float lower =
-          (1 - fx) * colours.at(left, top + 1, c) + fx * colours.at(left + 1, top + 1, c);
-      colour[static_cast<std::size_t>(c)] = (1 - fy) * upper + fy * lower;
-    }
-    return true;
-  }
-};
-
-struct Seen {
-  ViewProjector projector;
-  Small picture;
-};
 
 // Mean squared difference to the middle one; infinite where they hardly overlap.
-double disagreement(const Seen& middle, const std::vector<Seen>& others, double range) {
-  const Size size = middle.picture.colours.size();
+double disagreement(const SmallView& middle, const std::vector<SmallView>& others, double range) {
+  const Picture& own = middle.picture.colours();
+  const Size size = own.size();
   std::vector<double> sums(static_cast<std::size_t>(size.height)), counts(sums.size());
   tbb::parallel_for(0, size.height, [&](int y) {
     for (int x = 0; x < size.width; ++x) {
-      const int shrink = middle.picture.shrink;
-      const Vector3 point = middle.projector.pointAt((x + 0.5) * shrink, (y + 0.5) * shrink, range);
-      for (const Seen& other : others) {
+      const PixelPosition from = middle.picture.middleOf(x, y);
+      const Vector3 point = middle.projector.pointAt(from.x, from.y, range);
+      for (const SmallView& other : others) {
         Sighting at;
         std::array<float, 3> colour{};
         if (!other.projector.see(point, at) || !other.picture.sample(at, colour)) continue;
-        float apart = 0;
-        for (int c = 0; c < 3; ++c)
-          apart +=
-              std::abs(colour[static_cast<std::size_t>(c)] - middle.picture.colours.at(x, y, c));
-        apart = std::min(apart / 3, kMostDifference);
+        const float apart = differenceOf(colour.data(), &own.at(x, y, 0));
         sums[static_cast<std::size_t>(y)] += static_cast<double>(apart * apart);
         counts[static_cast<std::size_t>(y)] += 1;
       }
@@ -135,18 +89,18 @@ std::optional<Plane> sharpestPlane(ViewSource& source) {
   const bool free = std::ranges::all_of(
       views, [](const View& view) { return std::holds_alternative<PinholeCamera>(view.geometry); });
   if (!free || views.empty()) return std::nullopt;
-  std::vector<Seen> seen;
+  std::vector<SmallView> seen;
   for (const int view : middleAndNeighbours(views)) {
     const auto picture = source.picture(view);
-    seen.push_back(
-        {ViewProjector(views[static_cast<std::size_t>(view)].geometry), Small(*picture)});
+    seen.push_back({ViewProjector(views[static_cast<std::size_t>(view)].geometry),
+                    SmallPicture(*picture, kLongerSide)});
   }
   if (seen.size() < 2) return std::nullopt;
-  const Seen middle = std::move(seen.front());
+  const SmallView middle = std::move(seen.front());
   seen.erase(seen.begin());
   const double apart = length(seen.front().projector.eye() - middle.projector.eye());
   const Size size = middle.projector.size();
-  const double shrink = middle.picture.shrink;
+  const double shrink = middle.picture.shrink();
   // A point at range r shifts by apart / pixelWidth(r) pixels, and pixelWidth goes with r.
   const double shiftTimesRange = apart / middle.projector.pixelWidth(1);
   const double step = kStep * shrink;

@@ -285,7 +285,7 @@ void Synthesis::add(const Rig& rig, Ring ring, Undefined undefined, Picture& sum
     // What stands where the target stands sees what the target sees, whatever others say of depth.
     const bool asksDepth = byDepth_ && !standsWithTarget(projector);
     const auto depth = asksDepth ? source_.depth(view) : nullptr;
-    const ViewSamples samples(projector, *picture, depth.get(), undefined);
+    const ViewSamples samples(target_, projector, *picture, depth.get(), undefined);
     tbb::parallel_for(tbb::blocked_range<int>(0, target_.size().height), [&](const auto& rows) {
       std::vector<float> weights(static_cast<std::size_t>(target_.size().width));
       for (int y = rows.begin(); y < rows.end(); ++y) {

@@ -10,13 +10,15 @@ namespace {
 // A surface at a point's range within the first is the point's, beyond the second it is another
 // one; in widths of a pixel, because that is how exactly a depth picture knows steep surfaces.
 constexpr double kSameSurface = 2, kOtherSurface = 6;
+// Where depths are known less exactly than that, what a view shows is still right if it is no
+// farther from where it belongs in the target: in the target's pixels.
+constexpr double kSamePlaceSeen = 0.5, kOtherPlaceSeen = 1.5;
 // Of the shorter side: how wide views fade at their frames.
 constexpr double kFrameShare = 0.05;
 
-float agreement(double range, double found, double pixelWidth) {
-  const double apart = std::abs(range - found) / pixelWidth;
-  return static_cast<float>(
-      std::clamp((kOtherSurface - apart) / (kOtherSurface - kSameSurface), 0.0, 1.0));
+// 1 up to `same`, 0 from `other` on.
+float falling(double apart, double same, double other) {
+  return static_cast<float>(std::clamp((other - apart) / (other - same), 0.0, 1.0));
 }
 
 }  // namespace
@@ -36,9 +38,9 @@ struct ViewSamples::Taps {
   std::array<float, 4> weight;
 };
 
-ViewSamples::ViewSamples(const ViewProjector& view, const Picture& picture, const Picture* depth,
-                         Undefined undefined)
-    : view_(view), picture_(picture), depth_(depth), undefined_(undefined) {}
+ViewSamples::ViewSamples(const ViewProjector& target, const ViewProjector& view,
+                         const Picture& picture, const Picture* depth, Undefined undefined)
+    : target_(target), view_(view), picture_(picture), depth_(depth), undefined_(undefined) {}
 
 ViewSamples::Taps ViewSamples::tapsAt(const Sighting& seen) const {
   const Size size = view_.size();
@@ -57,19 +59,31 @@ ViewSamples::Taps ViewSamples::tapsAt(const Sighting& seen) const {
 }
 
 // Leaves the weights of those taps that tell of the point; returns how much that is.
-float ViewSamples::weighByDepth(Taps& taps, double range) const {
-  const double pixelWidth = view_.pixelWidth(range);
+float ViewSamples::weighByDepth(Taps& taps, Vector3 point, const Sighting& seen) const {
   float sum = 0;
   for (std::size_t i = 0; i < 4; ++i) {
     const double found = view_.rangeOf(depth_->at(taps.x[i], taps.y[i], 0));
     if (found == kNothing) {
       if (undefined_ == Undefined::Unrelated) taps.weight[i] = 0;
     } else {
-      taps.weight[i] *= undefined_ == Undefined::Backdrop ? 0 : agreement(range, found, pixelWidth);
+      taps.weight[i] *= undefined_ == Undefined::Backdrop ? 0 : agreement(point, seen, found);
     }
     sum += taps.weight[i];
   }
   return sum;
+}
+
+// Whether the surface that the view found along the way to the point is the point's.
+float ViewSamples::agreement(Vector3 point, const Sighting& seen, double found) const {
+  const double apart = std::abs(seen.range - found) / view_.pixelWidth(seen.range);
+  if (apart <= kSameSurface) return 1;
+  float agrees = falling(apart, kSameSurface, kOtherSurface);
+  Sighting wanted, shown;
+  if (target_.see(point, wanted) && target_.see(view_.pointAt(seen.x, seen.y, found), shown)) {
+    const double shift = std::hypot(shown.x - wanted.x, shown.y - wanted.y);
+    agrees = std::max(agrees, falling(shift, kSamePlaceSeen, kOtherPlaceSeen));
+  }
+  return agrees;
 }
 
 void ViewSamples::add(std::span<const Vector3> points, std::span<const float> weights,
@@ -82,7 +96,7 @@ void ViewSamples::add(std::span<const Vector3> points, std::span<const float> we
     const auto weight = weights[i] * static_cast<float>(frameFade(view_, seen));
     if (!(weight > 0)) continue;
     Taps taps = tapsAt(seen);
-    const float visible = depth_ == nullptr ? 1.0F : weighByDepth(taps, seen.range);
+    const float visible = depth_ == nullptr ? 1.0F : weighByDepth(taps, points[i], seen);
     float* sum = sums.data() + i * stride;
     sum[channels + kWeightSum] += weight;
     sum[channels + kVisibleSum] += weight * visible;

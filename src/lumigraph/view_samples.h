@@ -25,8 +25,8 @@ enum class Undefined {
 class ViewSamples {
  public:
   /// `depth` null: every point in the frame counts as seen.
-  ViewSamples(const ViewProjector& view, const Picture& picture, const Picture* depth,
-              Undefined undefined = Undefined::Nothing);
+  ViewSamples(const ViewProjector& target, const ViewProjector& view, const Picture& picture,
+              const Picture* depth, Undefined undefined);
 
   /// Adds to each pixel's sums. Points with a weight of 0 are not looked at.
   void add(std::span<const Vector3> points, std::span<const float> weights,
@@ -35,8 +35,10 @@ class ViewSamples {
  private:
   struct Taps;
   Taps tapsAt(const Sighting& seen) const;
-  float weighByDepth(Taps& taps, double range) const;
+  float weighByDepth(Taps& taps, Vector3 point, const Sighting& seen) const;
+  float agreement(Vector3 point, const Sighting& seen, double found) const;
 
+  const ViewProjector& target_;
   const ViewProjector& view_;
   const Picture& picture_;
   const Picture* depth_;

@@ -9,6 +9,7 @@
 
 #include "commands.h"
 #include "core/memory.h"
+#include "illum/capture_folder.h"
 #include "illum/error.h"
 #include "input_options.h"
 #include "orderly_stop.h"
@@ -24,7 +25,7 @@ struct BuildCommand {
   std::string output, curve, response;
   int bits = 0, tile = 0;
   double regularizer = 0;
-  bool json = false, weights = false, extension = false;
+  bool json = false, weights = false, extension = false, sweepDepth = false;
 
   void addTo(CLI::App& command) {
     command.add_option("INPUT", input.input, kInputs)->required();
@@ -34,6 +35,8 @@ struct BuildCommand {
     input.addTo(command);
     machine.addTo(command);
     command.add_option("--holdout", build.holdout, "leave every K-th light out of the fit");
+    command.add_flag("--sweep-depth", sweepDepth,
+                     "find depth by comparing photographs from several places");
     command.add_flag("--resume", build.resume, "go on with a build that was interrupted");
     command.add_flag("--force", build.force, "replace an existing object");
     command.add_flag("--json", json, "print what was built as JSON");
@@ -117,7 +120,10 @@ struct BuildCommand {
     stopOnSignals();
     auto scratch = std::filesystem::absolute(output).parent_path();
     if (!std::filesystem::path(output).has_filename()) scratch = scratch.parent_path();
-    const auto capture = input.open(captureMemoryBytes(build.memoryBytes), scratch, progress);
+    std::uint64_t memory = captureMemoryBytes(build.memoryBytes);
+    if (sweepDepth) memory /= 2;
+    auto capture = input.open(memory, scratch, progress);
+    if (sweepDepth) capture = withSweptDepth(std::move(capture), memory);
     const BuildReport report = buildObject(*capture, output, build, progress);
     for (const auto& warning : report.warnings) progress.remark(warning);
     if (report.stopped) {
