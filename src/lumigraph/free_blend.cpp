@@ -28,6 +28,7 @@ class LeastPenalties {
     for (; at > 0 && values_[at - 1].penalty > penalty; --at) values_[at] = values_[at - 1];
     values_[at] = {penalty, view};
   }
+  void clear() { filled_ = 0; }
   std::size_t size() const { return filled_; }
   std::size_t view(std::size_t place) const { return values_[place].view; }
   /// Infinity where there are fewer.
@@ -126,10 +127,11 @@ class FreeBlend final : public BlendRule {
 
   void rankViews(int y) {
     const auto points = points_.row(y);
+    LeastPenalties least(rings_[index(Ring::Wide)].count + 1);
     for (int x = 0; x < points_.size.width; ++x) {
       const Vector3 point = points[static_cast<std::size_t>(x)];
       const Wanted wanted = wantedAt(point);
-      LeastPenalties least(rings_[index(Ring::Wide)].count + 1);
+      least.clear();
       for (std::size_t view = 0; view < views_.size(); ++view)
         least.add(penaltyOf(*views_[view], point, wanted, least.last()), view);
       for (RingViews& ring : rings_) {
