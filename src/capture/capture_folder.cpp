@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <sys/stat.h>
+#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <list>
@@ -212,7 +213,8 @@ std::shared_ptr<const OpenView> CaptureFolder::view(int group) const {
                          [&](const auto& open) { return open->group == group; });
   if (at == open_.end()) {
     if (static_cast<int>(open_.size()) >= mostOpen_) open_.pop_back();
-    auto opened = openView(group, silent_);
+    // Whoever holds the lock must not take up other work, which may wait for it.
+    auto opened = tbb::this_task_arena::isolate([&] { return openView(group, silent_); });
     if (opened->photographs->transfer() != transfer_) {
       throw inputError(list_, "all views linear or all display-referred",
                        fmt::format("'{}' unlike '{}'", views_[static_cast<std::size_t>(group)].name,

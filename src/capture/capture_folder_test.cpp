@@ -2,6 +2,9 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <tbb/global_control.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
 
 #include <atomic>
 #include <cmath>
@@ -162,6 +165,25 @@ TEST_F(CaptureFolderTest, HalvesTakeLessAndAreNear) {
     ASSERT_NEAR(found[i], expected[i], expected[i] / 2048 + 1e-7);
   }
   EXPECT_NE(found, expected);
+}
+
+// Views are opened in parallel, under a lock: whoever waits for that must not begin to read
+// another.
+TEST_F(CaptureFolderTest, ManyThreadsReadManyViews) {
+  write();
+  constexpr std::size_t kThreads = 8;
+  const tbb::global_control threads(tbb::global_control::max_allowed_parallelism, kThreads);
+  tbb::task_arena arena(kThreads);
+  arena.execute([&] {
+    for (int round = 0; round < 120; ++round) {
+      const auto back = openCaptureFolder(path_, {}, progress_);
+      tbb::parallel_for(0, 24, [&](int i) {
+        const int group = i * 7 % capture_.groups();
+        const Rectangle part{i % 30, i % 11, 3, 2};
+        ASSERT_EQ(samplesOf(*back, group, part), samplesOf(capture_, group, part));
+      });
+    }
+  });
 }
 
 TEST_F(CaptureFolderTest, ReplacesCapturesOnlyWhenAsked) {
