@@ -73,7 +73,7 @@ class Sweep {
       const float bend = low - 2 * least + high;
       const float aside = bend > 0 ? std::clamp(0.5F * (low - high) / bend, -0.5F, 0.5F) : 0;
       // Finer than is known, and each step costs bytes.
-      constexpr float kParts = 4;
+      constexpr float kParts = 2;
       plane.samples()[p] = std::max(
           0.0F, std::round(kParts * (static_cast<float>(at.samples()[p]) + aside)) / kParts);
     }
