@@ -82,8 +82,8 @@ struct SynthesisedView {
 };
 
 /// What `target` sees. At a view of the source this is that view's picture, to rounding. The same
-/// on any number of threads. Throws Error (Fault::Input) for a source without views or one whose
-/// views are slabs' and others mixed, and (Fault::Usage) for options out of range.
+/// on any number of threads. Throws Error (Fault::Input) for a source without views, and
+/// (Fault::Usage) for options out of range.
 SynthesisedView synthesise(ViewSource& source, const ViewGeometry& target,
                            const SynthesisOptions& options = {});
 

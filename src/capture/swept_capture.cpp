@@ -2,9 +2,12 @@
 #include <tbb/task_arena.h>
 
 #include <algorithm>
+#include <limits>
 #include <list>
+#include <memory>
 #include <mutex>
 #include <utility>
+#include <vector>
 
 #include "core/memory.h"
 #include "illum/capture_folder.h"
@@ -139,7 +142,7 @@ class SweptCapture final : public Capture {
     });
   }
 
-  // The nearest ones at other places, views of the same way first.
+  // The nearest ones at other places that look about the same way.
   std::vector<int> neighboursOf(int view) const {
     const ViewProjector& own = projectors_[static_cast<std::size_t>(view)];
     std::vector<std::pair<double, int>> others;
@@ -169,7 +172,15 @@ class SweptCapture final : public Capture {
     const Picture picture = pictureOf(view);
     const SmallView own{projectors_[static_cast<std::size_t>(view)],
                         SmallPicture(picture, kSweptSide)};
-    return sweptDepth(picture, own, neighbours);
+    Picture depth = sweptDepth(picture, own, neighbours);
+    if (hasMask()) {
+      std::vector<float> coverage(depth.size().pixels());
+      readMask(view, {0, 0, depth.width(), depth.height()}, coverage);
+      for (std::size_t p = 0; p < coverage.size(); ++p) {
+        if (!(coverage[p] > 0)) depth.samples()[p] = std::numeric_limits<float>::infinity();
+      }
+    }
+    return depth;
   }
 
   std::unique_ptr<Capture> inner_;

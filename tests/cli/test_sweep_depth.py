@@ -35,15 +35,19 @@ def shot(pose, side=3):
     return colours.mean(axis=2), np.where(front.mean(axis=2) > 0.5, 4 - PANEL, 4 - WALL)
 
 
-def write(folder, poses, **fields):
+def write(folder, poses, masked=False):
     folder.mkdir(parents=True)
     views = []
     for k, pose in enumerate(poses):
         Image.fromarray(stacks.display_bytes(shot(pose)[0])).save(folder / f"{k}.png")
         views.append({"name": str(k), "geometry": {"kind": "camera", "camera": pose.record()},
                       "photographs": f"{k}.png"})
+        if masked:
+            front = shot(pose)[1] == 4 - PANEL
+            Image.fromarray(np.uint8(255 * front)).save(folder / f"mask {k}.png")
+            views[-1]["mask"] = f"mask {k}.png"
     (folder / "capture.json").write_text(json.dumps(
-        {"format": "illum-capture", "version": [1, 0], **fields, "views": views,
+        {"format": "illum-capture", "version": [1, 0], "views": views,
          "lights": [{"name": "all", "direction": [0, 0, 1]}]}))
     return folder
 
@@ -69,6 +73,17 @@ def test_views_between_are_sharp_near_and_far(illum, folder, tmp_path):
         assert (seen[..., 3] > 250).mean() > 0.99, name
         quality[name] = stacks.psnr(balls.over_black(seen), np.float64(truth))
     assert quality["swept"] > 27 and quality["swept"] > quality["plain"] + 5, quality
+
+
+def test_what_a_mask_leaves_out_has_no_depth(illum, tmp_path):
+    write(tmp_path / "in", [camera(STEP * u, 0) for u in (-1, 0, 1)], masked=True)
+    illum("build", tmp_path / "in", "-o", tmp_path / "o.illum", "--sweep-depth")
+    illum("relight", tmp_path / "o.illum", "--light", "0,0,1", "--camera",
+          f"{0.5 * STEP},0,4,{0.5 * STEP},0,0,{DEGREES}", "--size", f"{WIDTH}x{HEIGHT}", "-o",
+          tmp_path / "o.png")
+    seen = stacks.read_picture(tmp_path / "o.png")
+    front = shot(camera(0.5 * STEP, 0))[1] == 4 - PANEL
+    assert ((seen[..., 3] > 127) != front).mean() < 0.02
 
 
 def test_the_object_says_that_it_has_depth(illum, folder):
